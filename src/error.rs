@@ -1,0 +1,406 @@
+//! Errors and warnings: one enum per stage, each variant with the ids that a user needs to find the trouble.
+//!
+//! The name of a variant is its stable code ([`Error::code`]) in Rust and in JavaScript alike.
+
+use core::fmt;
+
+/// A value that an error carries: an id, a number, or a name.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Detail {
+    /// An id, a line, a length or a number of bytes.
+    Integer(u64),
+    /// A signed index as it stands in the input.
+    Signed(i64),
+    /// A number.
+    Real(f64),
+    /// A name or a piece of the input.
+    Text(String),
+}
+
+impl From<u32> for Detail {
+    fn from(value: u32) -> Self {
+        Self::Integer(u64::from(value))
+    }
+}
+impl From<u64> for Detail {
+    fn from(value: u64) -> Self {
+        Self::Integer(value)
+    }
+}
+impl From<usize> for Detail {
+    fn from(value: usize) -> Self {
+        Self::Integer(value as u64)
+    }
+}
+impl From<i64> for Detail {
+    fn from(value: i64) -> Self {
+        Self::Signed(value)
+    }
+}
+impl From<f64> for Detail {
+    fn from(value: f64) -> Self {
+        Self::Real(value)
+    }
+}
+impl From<String> for Detail {
+    fn from(value: String) -> Self {
+        Self::Text(value)
+    }
+}
+impl From<&'static str> for Detail {
+    fn from(value: &'static str) -> Self {
+        Self::Text(value.to_owned())
+    }
+}
+
+/// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names.
+macro_rules! stage_error {
+    ($(#[$meta:meta])* $name:ident {
+        $($(#[$variant_meta:meta])* $variant:ident { $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)? } => $message:literal,)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, PartialEq)]
+        #[non_exhaustive]
+        pub enum $name {
+            $($(#[$variant_meta])* $variant { $($(#[$field_meta])* $field: $ty),* },)*
+        }
+
+        impl $name {
+            /// The variant's name: stable, for programs.
+            #[must_use]
+            pub fn code(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => stringify!($variant),)*
+                }
+            }
+
+            /// The variant's fields by name.
+            #[must_use]
+            pub fn detail(&self) -> Vec<(&'static str, Detail)> {
+                match self {
+                    $(Self::$variant { $($field),* } => vec![$((stringify!($field), Detail::from($field.clone()))),*],)*
+                }
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $(Self::$variant { $($field),* } => {
+                        $(let _ = $field;)*
+                        write!(f, $message)
+                    })*
+                }
+            }
+        }
+
+        impl core::error::Error for $name {}
+    };
+}
+
+stage_error! {
+    /// A file could not be read.
+    ParseError {
+        /// There are no bytes.
+        EmptyFile {} => "the file is empty",
+        /// Neither the option, the content nor the file name tells the format.
+        UnknownFormat {} => "the format could not be recognised from the content or the file name; name it with the option `format`",
+        /// The format is known but not built yet.
+        UnsupportedFormat {
+            /// Its name.
+            format: String,
+        } => "reading or writing `{format}` is not supported",
+        /// The file ends before what its header promises.
+        Truncated {
+            /// Bytes that the header asks for, from the place where they should start.
+            expected: u64,
+            /// Bytes that are there.
+            available: u64,
+        } => "the file is truncated: {expected} bytes are needed where {available} are left",
+        /// A text file ends before what its header promises.
+        UnexpectedEnd {
+            /// 1-based number of the last line.
+            line: u64,
+            /// What was being read.
+            expected: String,
+        } => "the file ends at line {line} where {expected} was expected",
+        /// Something else stands where a number should.
+        InvalidNumber {
+            /// 1-based line.
+            line: u64,
+            /// What stands there (shortened).
+            text: String,
+        } => "line {line}: `{text}` is not a number",
+        /// The header or a keyword is malformed.
+        InvalidSyntax {
+            /// 1-based line.
+            line: u64,
+            /// What is wrong.
+            problem: String,
+        } => "line {line}: {problem}",
+        /// The file holds no vertices or no faces.
+        MissingElement {
+            /// Which element.
+            element: String,
+        } => "the file has no {element}",
+        /// A face names a vertex that does not exist.
+        FaceIndexOutOfBounds {
+            /// 0-based face.
+            face: u64,
+            /// The index as written.
+            index: i64,
+            /// Number of vertices.
+            vertices: u64,
+        } => "face {face} names vertex {index}, but there are {vertices} vertices",
+        /// The column asked for is not there.
+        UnknownColumn {
+            /// Its name or number.
+            column: String,
+        } => "there is no column `{column}`",
+        /// More vertices or faces than a 32-bit id can name.
+        TooLarge {
+            /// Which element.
+            element: String,
+            /// How many.
+            count: u64,
+        } => "{count} {element} are more than 32-bit ids can name",
+    }
+}
+
+stage_error! {
+    /// Positions and triangles do not make a mesh.
+    MeshError {
+        /// No vertices or no triangles.
+        EmptyMesh {
+            /// Number of vertices.
+            vertices: usize,
+            /// Number of usable triangles.
+            triangles: usize,
+        } => "a mesh needs vertices and triangles; there are {vertices} vertices and {triangles} usable triangles",
+        /// The length of the positions is no multiple of three.
+        PositionsNotTriples {
+            /// Length of the array.
+            length: usize,
+        } => "positions come in triples x, y, z, but there are {length} numbers",
+        /// The length of the triangles is no multiple of three.
+        TrianglesNotTriples {
+            /// Length of the array.
+            length: usize,
+        } => "triangles come in triples of vertex ids, but there are {length} ids",
+        /// More vertices or triangles than ids can name.
+        TooManyElements {
+            /// How many.
+            count: usize,
+        } => "{count} elements are more than 32-bit ids can name",
+        /// A coordinate is NaN or infinite.
+        NonFinitePosition {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} has a coordinate that is not finite",
+        /// A coordinate is so large that areas overflow.
+        PositionOverflow {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} has a coordinate beyond 1e100: areas would overflow; use larger units",
+        /// A triangle names a vertex that does not exist.
+        IndexOutOfBounds {
+            /// The triangle.
+            triangle: u32,
+            /// The vertex it names.
+            index: u32,
+            /// Number of vertices.
+            vertices: usize,
+        } => "triangle {triangle} names vertex {index}, but there are {vertices} vertices",
+        /// The mesh has no area, so the step asked for is not defined.
+        ZeroArea {} => "all triangles have zero area",
+        /// A row of weights sums to zero and cannot be normalised.
+        ZeroWeightSum {
+            /// The vertex.
+            vertex: u32,
+        } => "the weights around vertex {vertex} sum to zero, so its row cannot be normalised",
+    }
+}
+
+stage_error! {
+    /// Values do not make a field on the mesh.
+    FieldError {
+        /// Not one value per vertex (and channel).
+        LengthMismatch {
+            /// Length that fits.
+            expected: usize,
+            /// Length that came.
+            actual: usize,
+        } => "{expected} values are needed, one per vertex and channel, but there are {actual}",
+        /// A value is NaN or infinite.
+        NonFiniteValue {
+            /// The vertex.
+            vertex: u32,
+        } => "the value at vertex {vertex} is not finite",
+        /// The differences of the values overflow.
+        RangeOverflow {} => "the range of the values overflows double precision; rescale them",
+        /// A level is NaN or infinite.
+        NonFiniteLevel {
+            /// Its place in the list.
+            index: usize,
+        } => "level {index} is not finite",
+    }
+}
+
+stage_error! {
+    /// A linear system could not be solved.
+    SolveError {
+        /// The matrix is not square, or a vector does not fit it.
+        DimensionMismatch {
+            /// Size that fits.
+            expected: usize,
+            /// Size that came.
+            actual: usize,
+        } => "the system has {expected} unknowns, but {actual} were given",
+        /// Another sparsity pattern than the one analysed.
+        PatternMismatch {} => "the matrix has another pattern than the one that was analysed",
+        /// A matrix entry or right-hand side is NaN or infinite.
+        NonFiniteEntry {
+            /// Its row.
+            row: usize,
+        } => "row {row} of the system holds a number that is not finite",
+        /// The Cholesky factorisation met a pivot that is not positive.
+        NotPositiveDefinite {} => "the matrix is not numerically positive definite; a larger epsilon helps",
+        /// An iteration or refinement stopped before its tolerance.
+        NotConverged {
+            /// Iterations done.
+            iterations: usize,
+            /// Relative residual or correction reached.
+            residual: f64,
+        } => "not converged after {iterations} iterations: {residual:e} reached",
+        /// The memory needed is more than there is.
+        OutOfMemory {
+            /// Bytes needed.
+            bytes: u64,
+        } => "{bytes} bytes of memory are needed, more than can be had here",
+    }
+}
+
+stage_error! {
+    /// An option is unknown, out of range, or does not apply.
+    OptionError {
+        /// No option of that name.
+        UnknownOption {
+            /// The name.
+            option: String,
+        } => "there is no option `{option}`",
+        /// A value outside of what the option takes.
+        InvalidOption {
+            /// The name.
+            option: String,
+            /// What it takes.
+            expected: String,
+        } => "option `{option}` takes {expected}",
+        /// An option that has no meaning for the method chosen.
+        InapplicableOption {
+            /// The name.
+            option: String,
+            /// Why it does not apply.
+            reason: String,
+        } => "option `{option}` does not apply: {reason}",
+        /// An option that this version does not offer yet.
+        UnsupportedOption {
+            /// Its name and value.
+            option: String,
+        } => "`{option}` is not available in this version",
+        /// An argument of the wrong type.
+        InvalidArgument {
+            /// The name.
+            argument: String,
+            /// What it takes.
+            expected: String,
+        } => "`{argument}` must be {expected}",
+        /// An object that was freed before.
+        UseAfterFree {
+            /// The class.
+            object: String,
+        } => "this {object} was freed",
+    }
+}
+
+/// Any failure of this crate.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// While reading or writing a file.
+    Parse(ParseError),
+    /// In the mesh.
+    Mesh(MeshError),
+    /// In the values of a field.
+    Field(FieldError),
+    /// In a linear system.
+    Solve(SolveError),
+    /// In the options.
+    Option(OptionError),
+}
+
+/// `Result` with this crate's [`Error`].
+pub type Result<T, E = Error> = core::result::Result<T, E>;
+
+macro_rules! wrap_stage {
+    ($($variant:ident($stage:ident)),*) => {
+        $(impl From<$stage> for Error {
+            fn from(error: $stage) -> Self {
+                Self::$variant(error)
+            }
+        })*
+
+        impl Error {
+            /// The name of the innermost variant, such as `"NonFiniteValue"`: stable, for programs.
+            #[must_use]
+            pub fn code(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(error) => error.code(),)*
+                }
+            }
+
+            /// What a program can use: the ids involved, by name.
+            #[must_use]
+            pub fn detail(&self) -> Vec<(&'static str, Detail)> {
+                match self {
+                    $(Self::$variant(error) => error.detail(),)*
+                }
+            }
+        }
+
+        impl fmt::Display for Error {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $(Self::$variant(error) => error.fmt(f),)*
+                }
+            }
+        }
+
+        impl core::error::Error for Error {
+            fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+                match self {
+                    $(Self::$variant(error) => Some(error),)*
+                }
+            }
+        }
+    };
+}
+wrap_stage!(Parse(ParseError), Mesh(MeshError), Field(FieldError), Solve(SolveError), Option(OptionError));
+
+/// Something in the input that was put right or left out, and that the user should know.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// Stable name, such as `"DegenerateTriangle"`.
+    pub code: &'static str,
+    /// One sentence for people.
+    pub message: String,
+    /// How many were found.
+    pub count: usize,
+    /// Ids of the first few (at most [`Diagnostic::EXAMPLES`]).
+    pub examples: Vec<u32>,
+}
+
+impl Diagnostic {
+    /// How many ids [`Diagnostic::examples`] holds at most.
+    pub const EXAMPLES: usize = 8;
+}

@@ -1,0 +1,18 @@
+//! Smooths a scalar field on a triangle mesh without losing the critical points that matter.
+//!
+//! The crate implements G. Patanè and B. Falcidieno, *Computing Smooth Approximations of Scalar Functions with
+//! Constraints* (\[Patane09\] in `references.md`). Data flows one way: [`io`] → [`mesh`] → [`operators`] and [`field`] →
+//! [`smooth`], with [`solve`] knowing matrices only.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+pub mod error;
+pub mod field;
+pub mod io;
+pub mod mesh;
+pub mod operators;
+pub mod smooth;
+pub mod solve;
+#[cfg(feature = "wasm")]
+mod wasm;
+
+pub use error::{Diagnostic, Error, Result};
