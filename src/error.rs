@@ -202,7 +202,7 @@ stage_error! {
         PositionOverflow {
             /// The vertex.
             vertex: u32,
-        } => "vertex {vertex} has a coordinate beyond 1e100: areas would overflow; use larger units",
+        } => "vertex {vertex} has a coordinate beyond 1e75: areas would overflow; use larger units",
         /// A triangle names a vertex that does not exist.
         IndexOutOfBounds {
             /// The triangle.

@@ -16,3 +16,5 @@ pub mod solve;
 mod wasm;
 
 pub use error::{Diagnostic, Error, Result};
+pub use mesh::TriMesh;
+pub use smooth::{Smoother, SmootherOptions};

@@ -1,1 +1,13 @@
-//! To come.
+//! Scalar fields on a mesh: order of the vertices, critical points, level sets.
+
+mod critical;
+mod level_set;
+mod link;
+mod order;
+
+pub use critical::{
+    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading,
+    critical_points, largest_edge_difference,
+};
+pub use level_set::{LevelSets, evenly_spaced_levels, level_sets};
+pub use order::{ValueRange, VertexOrder, value_range};

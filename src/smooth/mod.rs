@@ -1,1 +1,145 @@
-//! To come.
+//! Smoothing: the systems of \[Patane09, section 4\] set up, solved and reported.
+
+mod report;
+mod system;
+mod tikhonov;
+
+pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
+pub use tikhonov::{Metric, TikhonovOptions};
+
+use nalgebra_sparse::CscMatrix;
+
+use crate::error::Result;
+use crate::mesh::TriMesh;
+use crate::operators::{self, LaplacianWeights};
+use system::TikhonovSystem;
+
+/// Which solver a [`Smoother`] uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SolverChoice {
+    /// The fastest route that is exact for the system at hand; today always Cholesky. The default.
+    #[default]
+    Auto,
+    /// Sparse Cholesky with iterative refinement.
+    Cholesky,
+    /// Conjugate gradients on the system in factored form: little memory, many iterations for small ε.
+    ConjugateGradient,
+}
+
+/// What a [`Smoother`] is made with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SmootherOptions {
+    /// The weights of L. Default cotangent.
+    pub weights: LaplacianWeights,
+    /// The solver. Default automatic.
+    pub solver: SolverChoice,
+}
+
+/// A step of the work, for progress displays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Assembling LᵀL and ordering and analysing its pattern; once per smoother.
+    Analysis,
+    /// The numeric factorisation; once per ε and metric.
+    Factorization,
+    /// Solving and refining.
+    Solve,
+    /// Counting critical points and norms.
+    Report,
+}
+
+impl Phase {
+    /// A short name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Analysis => "analysis",
+            Self::Factorization => "factorization",
+            Self::Solve => "solve",
+            Self::Report => "report",
+        }
+    }
+}
+
+/// Told at the start of every phase, with the fraction of the work that is done.
+pub type Progress<'a> = &'a mut dyn FnMut(Phase, f64);
+
+/// Smooths fields on one mesh. Holds the operators, the ordering and the symbolic and last numeric factor, so that a new
+/// field costs a solve and a new ε one numeric factorisation.
+///
+/// # Example
+/// ```
+/// use morse_smooth::mesh::shapes::{self, Random};
+/// use morse_smooth::smooth::{Smoother, SmootherOptions, TikhonovOptions};
+/// let mesh = shapes::sphere(3)?;
+/// let mut noise = Random::new(1);
+/// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+/// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+/// let smoothed = smoother.tikhonov(&field, &TikhonovOptions { epsilon: 0.01, ..TikhonovOptions::default() })?;
+/// let report = &smoothed.reports[0];
+/// assert!(report.after.minima < report.before.minima);
+/// assert_eq!(report.after.index_sum, Some(2));
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Smoother {
+    mesh: TriMesh,
+    options: SmootherOptions,
+    laplacian: CscMatrix<f64>,
+    tikhonov: Option<TikhonovSystem>,
+}
+
+impl Smoother {
+    /// Assembles the Laplacian. The mesh is shared, not copied.
+    ///
+    /// # Errors
+    /// `ZeroWeightSum` for normalised weights.
+    pub fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
+        let laplacian = operators::laplacian(mesh, options.weights)?;
+        Ok(Self { mesh: mesh.clone(), options, laplacian, tikhonov: None })
+    }
+
+    /// The mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &TriMesh {
+        &self.mesh
+    }
+
+    /// The Laplacian in use.
+    #[must_use]
+    pub fn laplacian(&self) -> &CscMatrix<f64> {
+        &self.laplacian
+    }
+
+    /// Solves eq. (3) or (5) of \[Patane09\]: see [`TikhonovOptions`].
+    ///
+    /// # Definition
+    /// (LᵀL + εB) x = εBf with B = I (eq. 3), the Galerkin or the lumped mass matrix (eq. 5); every channel is normalised
+    /// to [0, 1] by its range before and brought back after, which changes nothing but the reported numbers.
+    ///
+    /// # Properties
+    /// Constants are kept; T(af + b) = aT(f) + b; Σx = Σf (eq. 3), 1ᵀBx = 1ᵀBf (eq. 5). Isolated vertices, and vertices
+    /// that no operator reaches because all their triangles have zero area, keep their value. The Cholesky route refines
+    /// its solution with the residual in factored form, r = εB(f − x) − Lᵀ(Lx), until a correction is below 1e-8 of the
+    /// solution; refinement then leaves an error near its square.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for ε or channels; `ZeroArea` for a mass matrix
+    /// on a mesh without area; `NotPositiveDefinite`, `NotConverged`, `OutOfMemory` from the solver.
+    pub fn tikhonov(&mut self, values: &[f64], options: &TikhonovOptions) -> Result<Smoothed> {
+        self.tikhonov_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::tikhonov`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::tikhonov`].
+    pub fn tikhonov_with_progress(
+        &mut self,
+        values: &[f64],
+        options: &TikhonovOptions,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        tikhonov::run(self, values, options, progress)
+    }
+}

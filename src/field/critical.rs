@@ -1,0 +1,237 @@
+//! Minima, maxima and saddles, with and without a tolerance \[Patane09, section 3\].
+
+use super::link::LinkScratch;
+use super::order::VertexOrder;
+use crate::error::{Error, OptionError};
+use crate::mesh::{Connectivity, LinkKind, TriMesh};
+
+/// What kind of critical point a vertex is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum CriticalKind {
+    /// Empty lower link.
+    Minimum,
+    /// Several components of the lower or upper link.
+    Saddle,
+    /// Empty upper link.
+    Maximum,
+}
+
+/// One critical vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CriticalPoint {
+    /// Its id.
+    pub vertex: u32,
+    /// Its kind.
+    pub kind: CriticalKind,
+    /// 1 for extrema and simple saddles, k where k + 1 components of the lower or upper link meet.
+    pub multiplicity: u32,
+    /// It lies on an edge with one triangle.
+    pub on_boundary: bool,
+}
+
+/// How many critical points there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CriticalCounts {
+    /// Number of minima.
+    pub minima: u32,
+    /// Number of maxima.
+    pub maxima: u32,
+    /// Number of saddles, with multiplicity.
+    pub saddles: u32,
+    /// Σ (1 − χ(lower link)) over all vertices at δ = 0: equals the Euler characteristic of any triangle complex
+    /// (\[Banchoff67\]). `None` where δ > 0.
+    pub index_sum: Option<i64>,
+}
+
+/// The critical points of a field.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct CriticalPoints {
+    /// By ascending vertex.
+    pub points: Vec<CriticalPoint>,
+    /// Their numbers.
+    pub counts: CriticalCounts,
+}
+
+/// What δ is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DeltaScale {
+    /// A fraction of the largest |f_i − f_j| over the edges (\[Patane09, section 3\]). The default.
+    #[default]
+    Relative,
+    /// The units of the values.
+    Absolute,
+}
+
+/// How saddles are found where link vertices lie within δ of the vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LinkReading {
+    /// As printed in the paper: with c link edges whose ends lie beyond δ on opposite sides, a saddle has c ≥ 4 and
+    /// multiplicity ⌊c/2⌋ − 1. The default.
+    #[default]
+    Consecutive,
+    /// Link vertices within δ are dropped before the changes of side are counted around the link.
+    Skip,
+}
+
+/// When a vertex is an extremum at δ > 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ExtremumRule {
+    /// Every link vertex lies beyond δ on the same side. The default.
+    #[default]
+    Strict,
+    /// No link vertex lies beyond δ on one side, as the paper's text has it. Extrema then grow with δ, so that the sets
+    /// are not nested; a vertex with all its link within δ counts as a minimum. For comparison only.
+    Literal,
+}
+
+/// How [`critical_points`] classifies.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DeltaOptions {
+    /// The tolerance, at least 0. Default 0: every difference counts, ties are broken by vertex id.
+    pub delta: f64,
+    /// What [`DeltaOptions::delta`] is measured in. Default relative.
+    pub scale: DeltaScale,
+    /// How saddles are found at δ > 0. Default consecutive.
+    pub link: LinkReading,
+    /// When a vertex is an extremum at δ > 0. Default strict.
+    pub rule: ExtremumRule,
+}
+
+/// Classifies the vertices of a mesh.
+///
+/// # Definition
+/// Link vertices have the δ-sensitive sign of f_j − f_i \[Patane09, section 3\]. At δ = 0 vertices are compared by
+/// (value, id). Let l and u be the numbers of components of the lower and upper link: a minimum has l = 0, a maximum
+/// u = 0, a saddle max(l, u) ≥ 2 with multiplicity max(l, u) − 1. On a link that is a cycle this is the paper's number of
+/// changes of sign. At δ > 0 see [`LinkReading`] and [`ExtremumRule`]; where the link is no cycle, vertices within δ are
+/// dropped first for both readings. Isolated vertices are not critical.
+///
+/// # Properties
+/// One pass over the triangles. With the strict rule, sets for growing δ are nested. On a constant field every δ > 0
+/// gives no critical point.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where δ is negative or not finite.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let counts = field::critical_points(&torus, &height, &field::DeltaOptions::default())?.counts;
+/// assert_eq!((counts.minima, counts.maxima, counts.saddles, counts.index_sum), (1, 1, 2, Some(0)));
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -> Result<CriticalPoints, Error> {
+    let connectivity = mesh.connectivity();
+    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+    if !(options.delta.is_finite() && options.delta >= 0.0) {
+        let expected = "a finite number that is not negative".to_owned();
+        return Err(OptionError::InvalidOption { option: "delta".to_owned(), expected }.into());
+    }
+    if options.delta == 0.0 {
+        return Ok(classify(connectivity, options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 }));
+    }
+    let delta = match options.scale {
+        DeltaScale::Absolute => options.delta,
+        DeltaScale::Relative => options.delta * largest_edge_difference(connectivity, values),
+    };
+    Ok(classify(connectivity, options, false, |i, j| {
+        let difference = values[j as usize] - values[i as usize];
+        i8::from(difference > delta) - i8::from(difference < -delta)
+    }))
+}
+
+/// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
+///
+/// # Panics
+/// Where `values` has not one value per vertex.
+#[must_use]
+pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f64 {
+    connectivity
+        .edges()
+        .iter()
+        .map(|&[a, b]| (values[a as usize] - values[b as usize]).abs())
+        .fold(0.0, |largest, x| if x > largest { x } else { largest })
+}
+
+/// Bits of the state that [`sweep`] leaves at a vertex: which signs its link vertices have, and above them the number of
+/// link edges with opposite signs.
+const SAW_BELOW: u32 = 1;
+const SAW_NEUTRAL: u32 = 2;
+const SAW_ABOVE: u32 = 4;
+const SAW_ANY: u32 = SAW_BELOW | SAW_NEUTRAL | SAW_ABOVE;
+const ONE_CHANGE: u32 = 8;
+
+/// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
+/// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
+fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
+    let mut states = vec![0_u32; connectivity.vertex_count()];
+    for &[a, b, c] in connectivity.triangles() {
+        let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));
+        for (v, next, previous) in [(a, ab, -ca), (b, bc, -ab), (c, ca, -bc)] {
+            let state = &mut states[v as usize];
+            let change = u32::from(next * previous < 0) * ONE_CHANGE;
+            *state = (*state + change) | (SAW_BELOW << (next + 1)) | (SAW_BELOW << (previous + 1));
+        }
+    }
+    states
+}
+
+fn classify(
+    connectivity: &Connectivity,
+    options: &DeltaOptions,
+    exact: bool,
+    sign: impl Fn(u32, u32) -> i8 + Copy,
+) -> CriticalPoints {
+    let states = sweep(connectivity, sign);
+    let mut scratch = LinkScratch::default();
+    let mut found = CriticalPoints::default();
+    let mut index_sum = 0_i64;
+    for (vertex, (&state, &link_kind)) in states.iter().zip(connectivity.link_kinds()).enumerate() {
+        let vertex = vertex as u32;
+        let changes = state / ONE_CHANGE;
+        let mut on_boundary = false;
+        let saddle_multiplicity = match link_kind {
+            LinkKind::Isolated => {
+                index_sum += 1;
+                continue;
+            }
+            LinkKind::Cycle if options.link == LinkReading::Consecutive || state & SAW_NEUTRAL == 0 => {
+                // Lower and upper link alternate around the cycle: as many components each as half the changes; a whole
+                // cycle below, as an empty one, has characteristic 0.
+                index_sum += 1 - i64::from(changes / 2);
+                if changes == 2 {
+                    continue;
+                }
+                (changes / 2).saturating_sub(1)
+            }
+            _ => {
+                let link = scratch.inspect(connectivity, vertex, |j| sign(vertex, j));
+                on_boundary = link.on_boundary;
+                index_sum += 1 - link.lower_characteristic;
+                link.lower_components.max(link.upper_components).saturating_sub(1)
+            }
+        };
+        let kind = match (options.rule, state & SAW_ANY) {
+            (_, SAW_ABOVE) => CriticalKind::Minimum,
+            (_, SAW_BELOW) => CriticalKind::Maximum,
+            (ExtremumRule::Literal, signs) if signs & SAW_BELOW == 0 => CriticalKind::Minimum,
+            (ExtremumRule::Literal, signs) if signs & SAW_ABOVE == 0 => CriticalKind::Maximum,
+            _ if saddle_multiplicity > 0 => CriticalKind::Saddle,
+            _ => continue,
+        };
+        let multiplicity = match kind {
+            CriticalKind::Saddle => saddle_multiplicity,
+            CriticalKind::Minimum | CriticalKind::Maximum => 1,
+        };
+        match kind {
+            CriticalKind::Minimum => found.counts.minima += 1,
+            CriticalKind::Maximum => found.counts.maxima += 1,
+            CriticalKind::Saddle => found.counts.saddles += multiplicity,
+        }
+        found.points.push(CriticalPoint { vertex, kind, multiplicity, on_boundary });
+    }
+    found.counts.index_sum = exact.then_some(index_sum);
+    found
+}

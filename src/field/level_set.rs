@@ -1,0 +1,194 @@
+//! Level sets of the piecewise linear field as polylines.
+
+use super::order::{VertexOrder, value_range};
+use crate::error::{Error, FieldError, OptionError};
+use crate::mesh::TriMesh;
+
+/// More levels than anyone can tell apart; the bound keeps a slip from filling the memory.
+const MOST_LEVELS: usize = 10_000;
+
+/// Level sets as polylines: line k has the points `offsets[k]..offsets[k + 1]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LevelSets {
+    /// x, y, z of every point.
+    pub points: Vec<f64>,
+    /// Where each line starts among the points, and the number of points at the end.
+    pub offsets: Vec<u32>,
+    /// The level of every line.
+    pub levels: Vec<f64>,
+    /// Whether a line closes; its first point is not repeated.
+    pub closed: Vec<bool>,
+    /// For every point the two ends of its edge, smaller id first.
+    pub edges: Vec<[u32; 2]>,
+    /// For every point its place along that edge: 0 at the first end, 1 at the second.
+    pub parameters: Vec<f64>,
+}
+
+/// `count` levels that cut the range of the values into equal parts, without its ends; none for a constant field.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `count` is above 10,000.
+pub fn evenly_spaced_levels(mesh: &TriMesh, values: &[f64], count: usize) -> Result<Vec<f64>, Error> {
+    if count > MOST_LEVELS {
+        let expected = format!("at most {MOST_LEVELS} levels");
+        return Err(OptionError::InvalidOption { option: "count".to_owned(), expected }.into());
+    }
+    let range = value_range(mesh.connectivity(), values)?;
+    if range.length() <= 0.0 {
+        return Ok(Vec::new());
+    }
+    Ok((1..=count).map(|k| range.min + range.length() * (k as f64 / (count + 1) as f64)).collect())
+}
+
+/// Traces the level sets {f = level} of the piecewise linear field.
+///
+/// # Definition
+/// A vertex is above a level where its value is at least the level; a point of the level set lies on every edge with one
+/// end above and one below. The lines are those of a level smaller by an infinitesimal, so a level through vertices or
+/// along a plateau needs no special case. Lines run from triangle to triangle across edges with two triangles; they end at
+/// the boundary and at edges with more than two triangles.
+///
+/// # Properties
+/// Lines come by level in the order given, open ones first. A line has at least two points. O(triangles + levels + points).
+///
+/// # Units
+/// Points in the units of the positions, levels in those of the values.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels.
+pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<LevelSets, Error> {
+    VertexOrder::new(values, mesh.vertex_count())?;
+    if let Some(index) = levels.iter().position(|level| !level.is_finite()) {
+        return Err(FieldError::NonFiniteLevel { index }.into());
+    }
+    if levels.len() > MOST_LEVELS {
+        let expected = format!("at most {MOST_LEVELS} levels");
+        return Err(OptionError::InvalidOption { option: "levels".to_owned(), expected }.into());
+    }
+    let crossings = Crossings::new(mesh, values, levels);
+    let mut walk = Walk {
+        mesh,
+        values,
+        visited: vec![false; mesh.triangle_count()],
+        sets: LevelSets { offsets: vec![0], ..LevelSets::default() },
+    };
+    for (place, &level) in levels.iter().enumerate() {
+        walk.trace(level, crossings.triangles(place));
+    }
+    Ok(walk.sets)
+}
+
+/// The triangles that each level cuts, in compressed rows.
+struct Crossings {
+    offsets: Vec<usize>,
+    triangles: Vec<u32>,
+}
+
+impl Crossings {
+    /// Every triangle finds its levels by bisection, so that many levels cost no more than their points.
+    fn new(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Self {
+        let mut order: Vec<usize> = (0..levels.len()).collect();
+        order.sort_by(|&a, &b| levels[a].total_cmp(&levels[b]).then(a.cmp(&b)));
+        let sorted: Vec<f64> = order.iter().map(|&place| levels[place]).collect();
+        let cut = |corners: &[u32; 3]| {
+            let [x, y, z] = corners.map(|v| values[v as usize]);
+            // Cut by min < level ≤ max: one corner is below and one is not.
+            let (min, max) = (x.min(y).min(z), x.max(y).max(z));
+            sorted.partition_point(|&level| level <= min)..sorted.partition_point(|&level| level <= max)
+        };
+        let mut offsets = vec![0_usize; levels.len() + 1];
+        for corners in mesh.connectivity().triangles() {
+            for rank in cut(corners) {
+                offsets[order[rank] + 1] += 1;
+            }
+        }
+        for place in 0..levels.len() {
+            offsets[place + 1] += offsets[place];
+        }
+        let mut next = offsets.clone();
+        let mut triangles = vec![0_u32; offsets[levels.len()]];
+        for (t, corners) in mesh.connectivity().triangles().iter().enumerate() {
+            for rank in cut(corners) {
+                triangles[next[order[rank]]] = t as u32;
+                next[order[rank]] += 1;
+            }
+        }
+        Self { offsets, triangles }
+    }
+
+    fn triangles(&self, place: usize) -> &[u32] {
+        &self.triangles[self.offsets[place]..self.offsets[place + 1]]
+    }
+}
+
+struct Walk<'a> {
+    mesh: &'a TriMesh,
+    values: &'a [f64],
+    /// Triangles of the current level that a line has passed.
+    visited: Vec<bool>,
+    sets: LevelSets,
+}
+
+impl Walk<'_> {
+    fn trace(&mut self, level: f64, triangles: &[u32]) {
+        let connectivity = self.mesh.connectivity();
+        for &t in triangles {
+            self.visited[t as usize] = false;
+        }
+        for &t in triangles {
+            for edge in connectivity.triangle_edges()[t as usize] {
+                let ends_here = self.is_cut(edge, level) && connectivity.across(t, edge).is_none();
+                if ends_here && !self.visited[t as usize] {
+                    self.line(level, t, edge, false);
+                }
+            }
+        }
+        for &t in triangles {
+            if !self.visited[t as usize] {
+                let cut = connectivity.triangle_edges()[t as usize].into_iter().find(|&edge| self.is_cut(edge, level));
+                if let Some(edge) = cut {
+                    self.line(level, t, edge, true);
+                }
+            }
+        }
+    }
+
+    /// Follows one line that enters triangle `t` through `edge`.
+    fn line(&mut self, level: f64, mut t: u32, mut edge: u32, closed: bool) {
+        let connectivity = self.mesh.connectivity();
+        self.point(level, edge);
+        loop {
+            self.visited[t as usize] = true;
+            let exit = connectivity.triangle_edges()[t as usize]
+                .into_iter()
+                .find(|&other| other != edge && self.is_cut(other, level));
+            let Some(exit) = exit else { break };
+            let next = connectivity.across(t, exit);
+            // A closed line has come round where the next triangle is its first one again.
+            if next.is_some_and(|next| self.visited[next as usize]) {
+                break;
+            }
+            self.point(level, exit);
+            let Some(next) = next else { break };
+            (t, edge) = (next, exit);
+        }
+        self.sets.offsets.push(self.sets.parameters.len() as u32);
+        self.sets.levels.push(level);
+        self.sets.closed.push(closed);
+    }
+
+    fn is_cut(&self, edge: u32, level: f64) -> bool {
+        let [a, b] = self.mesh.connectivity().edges()[edge as usize];
+        (self.values[a as usize] >= level) != (self.values[b as usize] >= level)
+    }
+
+    fn point(&mut self, level: f64, edge: u32) {
+        let [a, b] = self.mesh.connectivity().edges()[edge as usize];
+        let (f, g) = (self.values[a as usize], self.values[b as usize]);
+        let parameter = ((level - f) / (g - f)).clamp(0.0, 1.0);
+        let (p, q) = (self.mesh.position(a), self.mesh.position(b));
+        self.sets.points.extend((0..3).map(|i| p[i] + parameter * (q[i] - p[i])));
+        self.sets.edges.push([a, b]);
+        self.sets.parameters.push(parameter);
+    }
+}

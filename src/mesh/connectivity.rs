@@ -1,0 +1,256 @@
+//! How vertices, edges and triangles meet, without positions.
+
+/// What the triangles around a vertex look like: the shape of its link.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinkKind {
+    /// In no triangle.
+    Isolated,
+    /// Interior vertex of a surface: the link is one cycle.
+    Cycle,
+    /// Boundary vertex of a surface: the link is one open path.
+    Path,
+    /// Not a surface here: the link is any other graph.
+    NonManifold,
+}
+
+/// The incidences of a pure triangle complex in compressed rows. A half-edge `3t + c` is the side of triangle `t` from its
+/// corner `c` to its corner `(c + 1) % 3`.
+#[derive(Debug, Clone)]
+pub struct Connectivity {
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    triangle_edges: Vec<[u32; 3]>,
+    edge_offsets: Vec<u32>,
+    edge_triangles: Vec<u32>,
+    star_offsets: Vec<u32>,
+    stars: Vec<u32>,
+    link_kinds: Vec<LinkKind>,
+    special: Vec<u32>,
+}
+
+impl Connectivity {
+    /// `triangles` must hold ids below `n`, no id twice in one triangle, no triangle twice: see `validate`.
+    pub(super) fn new(n: usize, triangles: Vec<[u32; 3]>) -> Self {
+        let (star_offsets, stars) = stars(n, &triangles);
+        let mut this = Self {
+            edges: Vec::with_capacity(triangles.len() * 3 / 2),
+            triangle_edges: vec![[0; 3]; triangles.len()],
+            edge_offsets: vec![0],
+            edge_triangles: Vec::with_capacity(triangles.len() * 3),
+            triangles,
+            star_offsets,
+            stars,
+            link_kinds: Vec::new(),
+            special: Vec::new(),
+        };
+        this.build_edges(n);
+        this.link_kinds = this.classify_links();
+        this.special = (0..n as u32)
+            .filter(|&v| matches!(this.link_kinds[v as usize], LinkKind::Path | LinkKind::NonManifold))
+            .collect();
+        this
+    }
+
+    /// Collects the half-edges of every vertex that lead to a larger id, sorted by that id, so that edges come out in
+    /// lexicographic order without a global sort.
+    fn build_edges(&mut self, n: usize) {
+        let mut half_edges: Vec<(u32, u32)> = Vec::new();
+        for v in 0..n as u32 {
+            half_edges.clear();
+            for &t in star_of(&self.star_offsets, &self.stars, v) {
+                let corners = self.triangles[t as usize];
+                let c = corner_of(corners, v);
+                let (next, previous) = (corners[(c + 1) % 3], corners[(c + 2) % 3]);
+                if next > v {
+                    half_edges.push((next, 3 * t + c as u32));
+                }
+                if previous > v {
+                    half_edges.push((previous, 3 * t + ((c + 2) % 3) as u32));
+                }
+            }
+            half_edges.sort_unstable();
+            for group in half_edges.chunk_by(|a, b| a.0 == b.0) {
+                let edge = self.edges.len() as u32;
+                self.edges.push([v, group[0].0]);
+                for &(_, half_edge) in group {
+                    self.triangle_edges[(half_edge / 3) as usize][(half_edge % 3) as usize] = edge;
+                    self.edge_triangles.push(half_edge / 3);
+                }
+                self.edge_offsets.push(self.edge_triangles.len() as u32);
+            }
+        }
+    }
+
+    fn classify_links(&self) -> Vec<LinkKind> {
+        let n = self.vertex_count();
+        let mut neighbours = vec![0_u32; n];
+        let mut branching = vec![false; n];
+        for (edge, ends) in self.edges.iter().enumerate() {
+            for &v in ends {
+                neighbours[v as usize] += 1;
+                branching[v as usize] |= self.triangles_of_edge(edge as u32).len() > 2;
+            }
+        }
+        (0..n as u32)
+            .map(|v| {
+                let star = self.star(v).len() as u32;
+                let paths = neighbours[v as usize].wrapping_sub(star);
+                if star == 0 {
+                    LinkKind::Isolated
+                } else if branching[v as usize] || paths > 1 || self.fan_size(v) != star {
+                    LinkKind::NonManifold
+                } else if paths == 0 {
+                    LinkKind::Cycle
+                } else {
+                    LinkKind::Path
+                }
+            })
+            .collect()
+    }
+
+    /// Number of triangles around `v` that are reached from its first one across edges with two triangles.
+    fn fan_size(&self, v: u32) -> u32 {
+        let first = self.star(v)[0];
+        let corner = corner_of(self.triangles[first as usize], v);
+        let sides = self.triangle_edges[first as usize];
+        let mut size = 1;
+        for start in [sides[corner], sides[(corner + 2) % 3]] {
+            let (mut t, mut edge) = (first, start);
+            while let Some(next) = self.across(t, edge) {
+                if next == first {
+                    return size;
+                }
+                size += 1;
+                let c = corner_of(self.triangles[next as usize], v);
+                let sides = self.triangle_edges[next as usize];
+                edge = if sides[c] == edge { sides[(c + 2) % 3] } else { sides[c] };
+                t = next;
+            }
+        }
+        size
+    }
+
+    /// Number of vertices.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.star_offsets.len() - 1
+    }
+
+    /// Vertex ids of every triangle, in the orientation of the input.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The two ends of every edge, smaller id first, in lexicographic order.
+    #[must_use]
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// For every triangle, the edge of each of its half-edges.
+    #[must_use]
+    pub fn triangle_edges(&self) -> &[[u32; 3]] {
+        &self.triangle_edges
+    }
+
+    /// The triangles at an edge: one on the boundary, two inside a surface, more where it is not a manifold.
+    ///
+    /// # Panics
+    /// Where `edge` does not exist.
+    #[must_use]
+    pub fn triangles_of_edge(&self, edge: u32) -> &[u32] {
+        let edge = edge as usize;
+        &self.edge_triangles[self.edge_offsets[edge] as usize..self.edge_offsets[edge + 1] as usize]
+    }
+
+    /// The triangle on the other side of an edge of `triangle`; none at the boundary and where more than two meet.
+    ///
+    /// # Panics
+    /// Where `edge` does not exist.
+    #[must_use]
+    pub fn across(&self, triangle: u32, edge: u32) -> Option<u32> {
+        match *self.triangles_of_edge(edge) {
+            [a, b] => Some(if a == triangle { b } else { a }),
+            _ => None,
+        }
+    }
+
+    /// The triangles at a vertex, ascending.
+    ///
+    /// # Panics
+    /// Where `vertex` does not exist.
+    #[must_use]
+    pub fn star(&self, vertex: u32) -> &[u32] {
+        star_of(&self.star_offsets, &self.stars, vertex)
+    }
+
+    /// The edges of the link of a vertex: the side opposite to it in each triangle of its star.
+    pub fn link(&self, vertex: u32) -> impl Iterator<Item = [u32; 2]> {
+        self.star(vertex).iter().map(move |&t| {
+            let corners = self.triangles[t as usize];
+            let c = corner_of(corners, vertex);
+            [corners[(c + 1) % 3], corners[(c + 2) % 3]]
+        })
+    }
+
+    /// The shape of every vertex's link.
+    #[must_use]
+    pub fn link_kinds(&self) -> &[LinkKind] {
+        &self.link_kinds
+    }
+
+    /// Vertices whose link is not a cycle, isolated ones left out; ascending.
+    #[must_use]
+    pub fn special_vertices(&self) -> &[u32] {
+        &self.special
+    }
+
+    /// Vertices of no triangle, ascending.
+    #[must_use]
+    pub fn isolated_vertices(&self) -> Vec<u32> {
+        (0..self.vertex_count() as u32).filter(|&v| self.link_kinds[v as usize] == LinkKind::Isolated).collect()
+    }
+
+    /// Number of vertices that belong to a triangle.
+    #[must_use]
+    pub fn referenced_vertex_count(&self) -> usize {
+        self.link_kinds.iter().filter(|&&kind| kind != LinkKind::Isolated).count()
+    }
+}
+
+/// Which corner of a triangle a vertex is.
+pub(super) fn corner_of(corners: [u32; 3], vertex: u32) -> usize {
+    if corners[0] == vertex {
+        0
+    } else if corners[1] == vertex {
+        1
+    } else {
+        2
+    }
+}
+
+fn star_of<'a>(offsets: &[u32], stars: &'a [u32], vertex: u32) -> &'a [u32] {
+    &stars[offsets[vertex as usize] as usize..offsets[vertex as usize + 1] as usize]
+}
+
+/// Triangles of every vertex by a counting sort.
+fn stars(n: usize, triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
+    let mut offsets = vec![0_u32; n + 1];
+    for &v in triangles.iter().flatten() {
+        offsets[v as usize + 1] += 1;
+    }
+    for v in 0..n {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut stars = vec![0_u32; triangles.len() * 3];
+    for (t, corners) in triangles.iter().enumerate() {
+        for &v in corners {
+            let place = &mut next[v as usize];
+            stars[*place as usize] = t as u32;
+            *place += 1;
+        }
+    }
+    (offsets, stars)
+}

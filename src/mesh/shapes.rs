@@ -1,0 +1,177 @@
+//! Generated meshes for examples, tests and benches.
+//!
+//! They use the platform's sine and cosine, so their last bits may differ between platforms; nothing else in the crate
+//! does.
+
+use core::f64::consts::TAU;
+
+use super::TriMesh;
+use crate::error::MeshError;
+
+/// A small reproducible generator of uniform numbers (SplitMix64, Steele et al. 2014).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// The same seed gives the same numbers everywhere.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number in [0, 1).
+    pub fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// The next number in [−1, 1).
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.uniform() - 1.0
+    }
+}
+
+/// The regular tetrahedron with corners at alternate corners of the cube [−1, 1]³; outward orientation.
+///
+/// # Errors
+/// None in practice; the type is the one of all generators.
+pub fn tetrahedron() -> Result<TriMesh, MeshError> {
+    let positions = vec![1., 1., 1., 1., -1., -1., -1., 1., -1., -1., -1., 1.];
+    TriMesh::new(positions, vec![0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2])
+}
+
+/// The octahedron with corners ±x, ±y, ±z at distance 1; outward orientation.
+///
+/// # Errors
+/// None in practice; the type is the one of all generators.
+pub fn octahedron() -> Result<TriMesh, MeshError> {
+    let (positions, triangles) = octahedron_arrays();
+    TriMesh::new(positions, triangles)
+}
+
+fn octahedron_arrays() -> (Vec<f64>, Vec<u32>) {
+    (
+        vec![1., 0., 0., -1., 0., 0., 0., 1., 0., 0., -1., 0., 0., 0., 1., 0., 0., -1.],
+        vec![0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5],
+    )
+}
+
+/// The unit sphere by `subdivisions` midpoint subdivisions of the octahedron: 4^(k+1) + 2 vertices.
+///
+/// # Errors
+/// None for sizes that fit the memory.
+pub fn sphere(subdivisions: u32) -> Result<TriMesh, MeshError> {
+    let (mut positions, mut triangles) = octahedron_arrays();
+    for _ in 0..subdivisions {
+        let mesh = TriMesh::new(positions, triangles)?;
+        let n = mesh.vertex_count() as u32;
+        positions = mesh.positions().to_vec();
+        for &[a, b] in mesh.connectivity().edges() {
+            let (p, q) = (mesh.position(a), mesh.position(b));
+            let sum = [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
+            let norm = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]).sqrt();
+            positions.extend(sum.map(|x| x / norm));
+        }
+        triangles = Vec::with_capacity(mesh.triangle_count() * 12);
+        for (&[a, b, c], &[ab, bc, ca]) in
+            mesh.connectivity().triangles().iter().zip(mesh.connectivity().triangle_edges())
+        {
+            let (ab, bc, ca) = (n + ab, n + bc, n + ca);
+            triangles.extend([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca]);
+        }
+    }
+    TriMesh::new(positions, triangles)
+}
+
+/// A torus of radii 1 and 0.4 with `around` × `across` vertices; `jitter` moves every vertex by up to that fraction of a
+/// cell within the surface, reproducibly. Sides are split along the same diagonal everywhere.
+///
+/// # Errors
+/// `EmptyMesh` where a count is below 3.
+pub fn torus(around: u32, across: u32, jitter: f64) -> Result<TriMesh, MeshError> {
+    let mut random = Random::new(u64::from(around) << 32 | u64::from(across));
+    let mut positions = Vec::with_capacity(3 * around as usize * across as usize);
+    for i in 0..around {
+        for j in 0..across {
+            let u = TAU * (f64::from(i) + jitter * random.signed()) / f64::from(around);
+            let v = TAU * (f64::from(j) + jitter * random.signed()) / f64::from(across);
+            let r = 1.0 + 0.4 * v.cos();
+            positions.extend([r * u.cos(), r * u.sin(), 0.4 * v.sin()]);
+        }
+    }
+    let at = |i: u32, j: u32| (i % around) * across + j % across;
+    TriMesh::new(positions, cells(around, across, at, around >= 3 && across >= 3))
+}
+
+/// A square [0, 1]² in the plane z = 0 with `columns` × `rows` vertices: an open mesh with one boundary loop.
+///
+/// # Errors
+/// `EmptyMesh` where a count is below 2.
+pub fn grid(columns: u32, rows: u32) -> Result<TriMesh, MeshError> {
+    let step = |i: u32, count: u32| f64::from(i) / f64::from(count.max(2) - 1);
+    let mut positions = Vec::with_capacity(3 * columns as usize * rows as usize);
+    for i in 0..columns {
+        for j in 0..rows {
+            positions.extend([step(i, columns), step(j, rows), 0.0]);
+        }
+    }
+    let at = |i: u32, j: u32| i * rows + j;
+    TriMesh::new(positions, cells(columns.saturating_sub(1), rows.saturating_sub(1), at, true))
+}
+
+/// A Möbius strip with `around` × `across` vertices: one-sided, one boundary loop, χ = 0.
+///
+/// # Errors
+/// `EmptyMesh` where a count is too small.
+pub fn moebius(around: u32, across: u32) -> Result<TriMesh, MeshError> {
+    let mut positions = Vec::with_capacity(3 * around as usize * across as usize);
+    for i in 0..around {
+        for j in 0..across {
+            let u = TAU * f64::from(i) / f64::from(around);
+            let w = 0.4 * (2.0 * f64::from(j) / f64::from(across.max(2) - 1) - 1.0);
+            let r = 1.0 + w * (u / 2.0).cos();
+            positions.extend([r * u.cos(), r * u.sin(), w * (u / 2.0).sin()]);
+        }
+    }
+    // After one turn the strip meets itself upside down.
+    let at = |i: u32, j: u32| if i < around { i * across + j } else { across - 1 - j };
+    TriMesh::new(positions, cells(around, across.saturating_sub(1), at, around >= 3))
+}
+
+/// A Klein bottle with `around` × `across` vertices (the figure-8 immersion, Franzoni 2012): closed, one-sided, χ = 0.
+///
+/// # Errors
+/// `EmptyMesh` where a count is too small.
+pub fn klein_bottle(around: u32, across: u32) -> Result<TriMesh, MeshError> {
+    let mut positions = Vec::with_capacity(3 * around as usize * across as usize);
+    for i in 0..around {
+        for j in 0..across {
+            let u = TAU * f64::from(i) / f64::from(around);
+            let v = TAU * f64::from(j) / f64::from(across);
+            let r = 2.0 + (u / 2.0).cos() * v.sin() - (u / 2.0).sin() * (2.0 * v).sin();
+            let z = (u / 2.0).sin() * v.sin() + (u / 2.0).cos() * (2.0 * v).sin();
+            positions.extend([r * u.cos(), r * u.sin(), z]);
+        }
+    }
+    // One turn reverses the figure-8.
+    let at = |i: u32, j: u32| if i < around { i * across + j % across } else { (across - j % across) % across };
+    TriMesh::new(positions, cells(around, across, at, around >= 3 && across >= 3))
+}
+
+/// Two triangles for each cell of an `m` × `n` grid of cells whose corners `at` names; none unless `valid`.
+fn cells(m: u32, n: u32, at: impl Fn(u32, u32) -> u32, valid: bool) -> Vec<u32> {
+    let mut triangles = Vec::new();
+    if valid {
+        triangles.reserve(6 * m as usize * n as usize);
+        for i in 0..m {
+            for j in 0..n {
+                let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                triangles.extend([a, b, c, a, c, d]);
+            }
+        }
+    }
+    triangles
+}

@@ -1,0 +1,135 @@
+//! From raw arrays to triangles that can be trusted: every index in range, every vertex id at most once a triangle,
+//! every triangle once.
+
+use crate::error::{Diagnostic, MeshError};
+
+/// Beyond this, fourth powers (squared cross products of sides) leave the range of double precision.
+const LARGEST_COORDINATE: f64 = 1e75;
+
+pub(super) struct Checked {
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) repeated_id_triangles: usize,
+    pub(super) warnings: Vec<Diagnostic>,
+}
+
+pub(super) fn check(positions: &[f64], triangles: &[u32]) -> Result<Checked, MeshError> {
+    check_positions(positions)?;
+    let n = positions.len() / 3;
+    if !triangles.len().is_multiple_of(3) {
+        return Err(MeshError::TrianglesNotTriples { length: triangles.len() });
+    }
+    // Half-edges 3t + c are u32 too, with one value left to mean "none".
+    if triangles.len() >= u32::MAX as usize {
+        return Err(MeshError::TooManyElements { count: triangles.len() });
+    }
+    let mut kept = Vec::with_capacity(triangles.len() / 3);
+    let mut repeated_ids = Vec::new();
+    let mut ids = Vec::new();
+    for (t, corners) in triangles.chunks_exact(3).enumerate() {
+        let corners = [corners[0], corners[1], corners[2]];
+        if let Some(&index) = corners.iter().find(|&&v| v as usize >= n) {
+            return Err(MeshError::IndexOutOfBounds { triangle: t as u32, index, vertices: n });
+        }
+        if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+            repeated_ids.push(t as u32);
+        } else {
+            kept.push(corners);
+            ids.push(t as u32);
+        }
+    }
+    let duplicates = duplicates(n, &kept);
+    let duplicate_ids: Vec<u32> = duplicates.iter().map(|&t| ids[t as usize]).collect();
+    remove(&mut kept, &duplicates);
+    if n == 0 || kept.is_empty() {
+        return Err(MeshError::EmptyMesh { vertices: n, triangles: kept.len() });
+    }
+    let mut warnings = Vec::new();
+    report(&mut warnings, "DegenerateTriangle", &repeated_ids, |count| {
+        format!("{count} triangles name a vertex twice and were left out")
+    });
+    report(&mut warnings, "DuplicateTriangle", &duplicate_ids, |count| {
+        format!("{count} triangles repeat another one and were left out")
+    });
+    Ok(Checked { triangles: kept, repeated_id_triangles: repeated_ids.len(), warnings })
+}
+
+pub(super) fn check_positions(positions: &[f64]) -> Result<(), MeshError> {
+    if !positions.len().is_multiple_of(3) {
+        return Err(MeshError::PositionsNotTriples { length: positions.len() });
+    }
+    if positions.len() / 3 >= u32::MAX as usize {
+        return Err(MeshError::TooManyElements { count: positions.len() / 3 });
+    }
+    for (i, &x) in positions.iter().enumerate() {
+        let vertex = (i / 3) as u32;
+        if !x.is_finite() {
+            return Err(MeshError::NonFinitePosition { vertex });
+        }
+        if x.abs() > LARGEST_COORDINATE {
+            return Err(MeshError::PositionOverflow { vertex });
+        }
+    }
+    Ok(())
+}
+
+/// Adds a warning unless there is nothing to warn of.
+pub(super) fn report(
+    warnings: &mut Vec<Diagnostic>,
+    code: &'static str,
+    ids: &[u32],
+    message: impl FnOnce(usize) -> String,
+) {
+    if !ids.is_empty() {
+        let examples = ids.iter().copied().take(Diagnostic::EXAMPLES).collect();
+        warnings.push(Diagnostic { code, message: message(ids.len()), count: ids.len(), examples });
+    }
+}
+
+/// Triangles (ascending) whose set of vertices an earlier triangle has too.
+fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    // Bucket by the smallest vertex; buckets are small, so sorting them is nearly linear.
+    let smallest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);
+    let mut offsets = vec![0_u32; n + 1];
+    for t in triangles {
+        offsets[smallest(t) as usize + 1] += 1;
+    }
+    for v in 0..n {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut bucketed = vec![0_u32; triangles.len()];
+    for (id, t) in triangles.iter().enumerate() {
+        let place = &mut next[smallest(t) as usize];
+        bucketed[*place as usize] = id as u32;
+        *place += 1;
+    }
+    let mut found = Vec::new();
+    let mut keys: Vec<(u64, u32)> = Vec::new();
+    for v in 0..n {
+        keys.clear();
+        for &id in &bucketed[offsets[v] as usize..offsets[v + 1] as usize] {
+            let t = triangles[id as usize];
+            let largest = t[0].max(t[1]).max(t[2]);
+            // Wrapping sums recover the middle id without branches.
+            let middle = t[0].wrapping_add(t[1]).wrapping_add(t[2]).wrapping_sub(v as u32).wrapping_sub(largest);
+            keys.push(((u64::from(middle) << 32) | u64::from(largest), id));
+        }
+        keys.sort_unstable();
+        found.extend(keys.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1));
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Removes the triangles at the given ascending places.
+fn remove(triangles: &mut Vec<[u32; 3]>, places: &[u32]) {
+    let mut places = places.iter().copied().peekable();
+    let mut id = 0_u32;
+    if places.peek().is_some() {
+        triangles.retain(|_| {
+            let gone = places.next_if_eq(&id).is_some();
+            id += 1;
+            !gone
+        });
+    }
+}

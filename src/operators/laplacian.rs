@@ -1,0 +1,191 @@
+//! Laplacians with the weights of \[Patane09, section 4.1\].
+
+use nalgebra_sparse::CscMatrix;
+
+use super::assemble;
+use crate::error::MeshError;
+use crate::mesh::{TriMesh, difference, dot, norm};
+
+/// Where the absolute weights of a row cancel to this fraction, dividing by their sum would only blow up rounding.
+const CANCELLED: f64 = 1e-12;
+
+/// The weights w_ij of a Laplacian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum LaplacianWeights {
+    /// (cot α + cot β)/2; symmetric. The default.
+    #[default]
+    Cotangent,
+    /// Floater's mean value coordinates; not symmetric.
+    MeanValue,
+    /// Cotangent weights, every row divided by its sum; not symmetric.
+    NormalizedCotangent,
+    /// 1 for every edge; symmetric.
+    Uniform,
+}
+
+impl LaplacianWeights {
+    /// Whether w_ij = w_ji.
+    #[must_use]
+    pub fn is_symmetric(self) -> bool {
+        matches!(self, Self::Cotangent | Self::Uniform)
+    }
+}
+
+/// The Laplacian with the given weights: see the function of each.
+///
+/// # Errors
+/// `ZeroWeightSum` for [`LaplacianWeights::NormalizedCotangent`].
+pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<f64>, MeshError> {
+    match weights {
+        LaplacianWeights::Cotangent => Ok(cotan_laplacian(mesh)),
+        LaplacianWeights::MeanValue => mean_value_laplacian(mesh),
+        LaplacianWeights::NormalizedCotangent => normalized_cotan_laplacian(mesh),
+        LaplacianWeights::Uniform => Ok(uniform_laplacian(mesh)),
+    }
+}
+
+/// The cotangent Laplacian.
+///
+/// # Definition
+/// w_ij = Σ ½ cot α over the angles α opposite to the edge (i, j): two inside a surface, one on its boundary
+/// (\[Patane09, section 4.1\], \[Pinkall93\]). Triangles of zero area contribute nothing.
+///
+/// # Properties
+/// n × n, symmetric, positive semi-definite; constants are in its kernel; single weights may be negative. Rows and columns
+/// of isolated vertices are zero.
+///
+/// # Units
+/// None: scaling the mesh does not change it.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{mesh::shapes, operators::cotan_laplacian};
+/// let laplacian = cotan_laplacian(&shapes::tetrahedron()?);
+/// // Three angles of 60° meet every edge's two opposite corners: w = cot 60° = 1/√3.
+/// let entry = laplacian.get_entry(0, 1).map(|entry| entry.into_value());
+/// assert!((entry.unwrap_or(0.0) + 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+#[must_use]
+pub fn cotan_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
+    from_symmetric(mesh, &cotan_weights(mesh))
+}
+
+/// The graph Laplacian: w_ij = 1 for every edge.
+///
+/// # Properties
+/// n × n, symmetric, positive semi-definite, without units; the diagonal holds the valences.
+#[must_use]
+pub fn uniform_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
+    from_symmetric(mesh, &vec![1.0; mesh.edge_count()])
+}
+
+/// The cotangent Laplacian with every row divided by its sum of weights.
+///
+/// # Properties
+/// n × n, not symmetric, unit diagonal except in rows without area, which are zero. Without units.
+///
+/// # Errors
+/// `ZeroWeightSum` where positive and negative weights of a row cancel.
+pub fn normalized_cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    let sides: Vec<[f64; 2]> = cotan_weights(mesh).into_iter().map(|w| [w, w]).collect();
+    normalized(mesh, sides)
+}
+
+/// The Laplacian of Floater's mean value coordinates.
+///
+/// # Definition
+/// λ_ij = w_ij / Σ_k w_ik with w_ij = Σ tan(θ/2)/|p_j − p_i| over the angles θ at i beside the edge (i, j)
+/// (\[Floater03, eq. 2.1\]; \[Patane09, section 4.1\] names them as an alternative).
+///
+/// # Properties
+/// n × n, not symmetric, unit diagonal, off-diagonal entries −λ_ij ≤ 0. Without units.
+///
+/// # Errors
+/// None in practice: the weights are positive.
+pub fn mean_value_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    let mut sides = vec![[0.0; 2]; mesh.edge_count()];
+    let connectivity = mesh.connectivity();
+    for (t, (corners, edges)) in connectivity.triangles().iter().zip(connectivity.triangle_edges()).enumerate() {
+        if mesh.is_zero_area(t as u32) {
+            continue;
+        }
+        let twice_area = 2.0 * mesh.triangle_areas()[t];
+        for c in 0..3 {
+            let (here, next, previous) = (corners[c], corners[(c + 1) % 3], corners[(c + 2) % 3]);
+            let (a, b) = (
+                difference(mesh.position(next), mesh.position(here)),
+                difference(mesh.position(previous), mesh.position(here)),
+            );
+            let (lengths, cosine) = (norm(a) * norm(b), dot(a, b));
+            // tan(θ/2) = sin θ/(1 + cos θ) = (1 − cos θ)/sin θ: the one without cancellation.
+            let tangent = if cosine > 0.0 { twice_area / (lengths + cosine) } else { (lengths - cosine) / twice_area };
+            for (edge, length) in [(edges[c], norm(a)), (edges[(c + 2) % 3], norm(b))] {
+                let [first, _] = connectivity.edges()[edge as usize];
+                sides[edge as usize][usize::from(first != here)] += tangent / length;
+            }
+        }
+    }
+    normalized(mesh, sides)
+}
+
+/// Half the cotangents opposite to every edge, summed.
+fn cotan_weights(mesh: &TriMesh) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.edge_count()];
+    let connectivity = mesh.connectivity();
+    for (t, (corners, edges)) in connectivity.triangles().iter().zip(connectivity.triangle_edges()).enumerate() {
+        if mesh.is_zero_area(t as u32) {
+            continue;
+        }
+        let four_areas = 4.0 * mesh.triangle_areas()[t];
+        for c in 0..3 {
+            let opposite = mesh.position(corners[(c + 2) % 3]);
+            let a = difference(mesh.position(corners[c]), opposite);
+            let b = difference(mesh.position(corners[(c + 1) % 3]), opposite);
+            weights[edges[c] as usize] += dot(a, b) / four_areas;
+        }
+    }
+    weights
+}
+
+fn from_symmetric(mesh: &TriMesh, weights: &[f64]) -> CscMatrix<f64> {
+    let mut diagonal = vec![0.0; mesh.vertex_count()];
+    let mut sides = Vec::with_capacity(weights.len());
+    for (&[a, b], &w) in mesh.connectivity().edges().iter().zip(weights) {
+        diagonal[a as usize] += w;
+        diagonal[b as usize] += w;
+        sides.push([-w, -w]);
+    }
+    assemble(mesh, &diagonal, &sides)
+}
+
+/// Divides the weights of every vertex by their sum.
+fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>) -> Result<CscMatrix<f64>, MeshError> {
+    let mut sums = vec![0.0_f64; mesh.vertex_count()];
+    let mut sizes = vec![0.0_f64; mesh.vertex_count()];
+    let edges = mesh.connectivity().edges();
+    for (ends, weights) in edges.iter().zip(&sides) {
+        for (&v, w) in ends.iter().zip(weights) {
+            sums[v as usize] += w;
+            sizes[v as usize] += w.abs();
+        }
+    }
+    let mut diagonal = vec![0.0; sums.len()];
+    for (v, (&sum, &size)) in sums.iter().zip(&sizes).enumerate() {
+        if size > 0.0 {
+            if sum.abs() <= CANCELLED * size {
+                return Err(MeshError::ZeroWeightSum { vertex: v as u32 });
+            }
+            diagonal[v] = 1.0;
+        }
+    }
+    for (ends, weights) in edges.iter().zip(&mut sides) {
+        for (&v, w) in ends.iter().zip(weights) {
+            if sizes[v as usize] > 0.0 {
+                *w /= -sums[v as usize];
+            }
+        }
+    }
+    Ok(assemble(mesh, &diagonal, &sides))
+}

@@ -1,0 +1,85 @@
+//! Mass matrices: the paper's B \[Patane09, section 4.2\] and its lumped form.
+
+use nalgebra_sparse::CscMatrix;
+
+use super::assemble;
+use crate::error::MeshError;
+use crate::mesh::TriMesh;
+
+/// What a mass matrix is scaled to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MassScale {
+    /// Times n/area, n the number of vertices with a triangle: mean vertex area 1, so that ε has the same meaning with
+    /// and without the matrix and does not depend on units. The default.
+    #[default]
+    MeanOne,
+    /// As the paper prints it, in units of area.
+    Raw,
+}
+
+impl MassScale {
+    fn factor(self, mesh: &TriMesh) -> Result<f64, MeshError> {
+        match self {
+            Self::Raw => Ok(1.0),
+            Self::MeanOne if mesh.area() > 0.0 => {
+                Ok(mesh.connectivity().referenced_vertex_count() as f64 / mesh.area())
+            }
+            Self::MeanOne => Err(MeshError::ZeroArea {}),
+        }
+    }
+}
+
+/// The Galerkin (consistent) mass matrix B of linear elements.
+///
+/// # Definition
+/// b_ij = Σ |t|/12 over the triangles at the edge (i, j), b_ii = Σ |t|/6 over those at the vertex i
+/// (\[Patane09, section 4.2\]).
+///
+/// # Properties
+/// n × n, symmetric, positive definite on the vertices with area; the entries sum to the area (raw) or to n (mean one).
+///
+/// # Errors
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
+    let factor = scale.factor(mesh)?;
+    let connectivity = mesh.connectivity();
+    let mut diagonal = vec![0.0; mesh.vertex_count()];
+    let mut sides = vec![[0.0; 2]; mesh.edge_count()];
+    for (t, &area) in mesh.triangle_areas().iter().enumerate() {
+        let share = area * factor / 12.0;
+        for c in 0..3 {
+            diagonal[connectivity.triangles()[t][c] as usize] += 2.0 * share;
+            for side in &mut sides[connectivity.triangle_edges()[t][c] as usize] {
+                *side += share;
+            }
+        }
+    }
+    Ok(assemble(mesh, &diagonal, &sides))
+}
+
+/// The lumped mass matrix: a third of the area of the triangles at every vertex on the diagonal, the row sums of
+/// [`galerkin_mass`]. Only the diagonal is stored.
+///
+/// # Errors
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+pub fn lumped_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
+    let diagonal = lumped_mass_diagonal(mesh, scale)?;
+    let mut matrix = CscMatrix::identity(diagonal.len());
+    matrix.values_mut().copy_from_slice(&diagonal);
+    Ok(matrix)
+}
+
+/// The diagonal of [`lumped_mass`].
+///
+/// # Errors
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+pub fn lumped_mass_diagonal(mesh: &TriMesh, scale: MassScale) -> Result<Vec<f64>, MeshError> {
+    let factor = scale.factor(mesh)?;
+    let mut diagonal = vec![0.0; mesh.vertex_count()];
+    for (corners, &area) in mesh.connectivity().triangles().iter().zip(mesh.triangle_areas()) {
+        for &v in corners {
+            diagonal[v as usize] += area * factor / 3.0;
+        }
+    }
+    Ok(diagonal)
+}

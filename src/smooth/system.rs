@@ -1,0 +1,324 @@
+//! The matrix LᵀL + εB on the vertices that the operators reach, and its solution.
+
+use nalgebra_sparse::CscMatrix;
+
+use super::tikhonov::{Metric, TikhonovOptions};
+use super::{Phase, Progress, SolverChoice};
+use crate::error::{Result, SolveError};
+use crate::mesh::{LinkKind, TriMesh};
+use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
+use crate::solve::{
+    CgOptions, CholeskyAnalysis, CholeskyFactor, conjugate_gradient, gram, norm, product, submatrix, transposed_product,
+};
+
+/// A correction below this fraction of the solution ends the refinement: where refinement contracts at all, the error
+/// that is left is about the square of the relative correction.
+const SMALL_CORRECTION: f64 = 1e-8;
+const MOST_REFINEMENTS: usize = 12;
+
+/// Everything about a Tikhonov system that outlives one ε.
+#[derive(Debug)]
+pub(super) struct TikhonovSystem {
+    /// The vertices that are unknowns, ascending.
+    active: Vec<u32>,
+    /// L on the unknowns.
+    laplacian: CscMatrix<f64>,
+    /// LᵀL on the unknowns, and its analysis: made by the first direct solve.
+    direct: Option<Direct>,
+    mass: Option<(Metric, MassScale, Mass)>,
+}
+
+#[derive(Debug)]
+struct Direct {
+    gram: CscMatrix<f64>,
+    analysis: CholeskyAnalysis,
+    factor: Option<(f64, Metric, MassScale, CholeskyFactor)>,
+}
+
+/// B on the unknowns.
+#[derive(Debug)]
+enum Mass {
+    Identity,
+    Diagonal(Vec<f64>),
+    Matrix(CscMatrix<f64>),
+}
+
+/// One solved channel.
+pub(super) struct Solution {
+    /// Per vertex; none where the vertex is no unknown and keeps its value.
+    pub(super) values: Vec<Option<f64>>,
+    /// ‖x − f‖_B.
+    pub(super) metric_norm: f64,
+    /// ‖εBf − (LᵀL + εB)x‖₂ / ‖εBf‖₂ in factored form.
+    pub(super) relative_residual: f64,
+    pub(super) refinement_steps: usize,
+    pub(super) iterations: usize,
+}
+
+/// All channels, and what the solver was.
+pub(super) struct Solved {
+    pub(super) solutions: Vec<Solution>,
+    pub(super) route: &'static str,
+    pub(super) unknowns: usize,
+    pub(super) factor_nonzeros: u64,
+}
+
+impl TikhonovSystem {
+    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>) -> Result<Self> {
+        let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
+        let kinds = mesh.connectivity().link_kinds();
+        // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero.
+        let active: Vec<u32> = laplacian
+            .col_iter()
+            .enumerate()
+            .filter(|(v, column)| {
+                kinds[*v] != LinkKind::Isolated && (areas[*v] > 0.0 || column.values().iter().any(|&x| x != 0.0))
+            })
+            .map(|(v, _)| v as u32)
+            .collect();
+        let laplacian =
+            if active.len() == laplacian.ncols() { laplacian.clone() } else { submatrix(laplacian, &active) };
+        Ok(Self { active, laplacian, direct: None, mass: None })
+    }
+
+    /// Solves for every channel of normalised values.
+    pub(super) fn solve(
+        &mut self,
+        mesh: &TriMesh,
+        fields: &[Vec<f64>],
+        options: &TikhonovOptions,
+        solver: SolverChoice,
+        progress: Progress<'_>,
+    ) -> Result<Solved> {
+        self.prepare_mass(mesh, options)?;
+        let fields: Vec<Vec<f64>> =
+            fields.iter().map(|f| self.active.iter().map(|&v| f[v as usize]).collect()).collect();
+        // The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
+        let scale = options.epsilon.max(1.0);
+        let epsilon = options.epsilon / scale;
+        let (solutions, route, factor_nonzeros) = match solver {
+            _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
+            SolverChoice::ConjugateGradient => {
+                progress(Phase::Solve, 0.1);
+                (self.iterate(&fields, epsilon, scale)?, "cg", 0)
+            }
+            SolverChoice::Auto | SolverChoice::Cholesky => {
+                self.factorize(options, epsilon, scale, progress)?;
+                progress(Phase::Solve, 0.9);
+                let nonzeros = self.direct.as_ref().map_or(0, |direct| direct.analysis.size().nonzeros);
+                (self.solve_and_refine(&fields, epsilon, scale)?, "cholesky", nonzeros)
+            }
+        };
+        let solutions = solutions
+            .into_iter()
+            .zip(&fields)
+            .map(|(iterate, f)| self.finish(iterate, f, mesh.vertex_count(), epsilon, scale))
+            .collect();
+        Ok(Solved { solutions, route, unknowns: self.active.len(), factor_nonzeros })
+    }
+
+    fn prepare_mass(&mut self, mesh: &TriMesh, options: &TikhonovOptions) -> Result<()> {
+        if let Some((metric, scale, _)) = self.mass
+            && metric == options.metric
+            && (metric == Metric::Identity || scale == options.mass_scale)
+        {
+            return Ok(());
+        }
+        let mass = match options.metric {
+            Metric::Identity => Mass::Identity,
+            Metric::Mass => Mass::Matrix(submatrix(&galerkin_mass(mesh, options.mass_scale)?, &self.active)),
+            Metric::Lumped => {
+                let diagonal = lumped_mass_diagonal(mesh, options.mass_scale)?;
+                Mass::Diagonal(self.active.iter().map(|&v| diagonal[v as usize]).collect())
+            }
+        };
+        self.mass = Some((options.metric, options.mass_scale, mass));
+        Ok(())
+    }
+
+    fn mass(&self) -> &Mass {
+        self.mass.as_ref().map_or(&Mass::Identity, |(_, _, mass)| mass)
+    }
+
+    fn factorize(
+        &mut self,
+        options: &TikhonovOptions,
+        epsilon: f64,
+        scale: f64,
+        progress: Progress<'_>,
+    ) -> Result<(), SolveError> {
+        let mut direct = match self.direct.take() {
+            Some(direct) => direct,
+            None => {
+                progress(Phase::Analysis, 0.0);
+                let gram = gram(&self.laplacian);
+                let analysis = CholeskyAnalysis::new(gram.pattern())?;
+                Direct { gram, analysis, factor: None }
+            }
+        };
+        let wanted = (options.epsilon, options.metric, options.mass_scale);
+        let factor = match direct.factor.take() {
+            Some((epsilon, metric, mass_scale, factor)) if (epsilon, metric, mass_scale) == wanted => Ok(factor),
+            previous => {
+                progress(Phase::Factorization, 0.2);
+                let values = combine(&direct.gram, self.mass(), epsilon, scale);
+                match previous {
+                    Some((_, _, _, mut factor)) => factor.refactor(&values).map(|()| factor),
+                    None => direct.analysis.factor(&values),
+                }
+            }
+        };
+        let outcome = factor.map(|factor| direct.factor = Some((wanted.0, wanted.1, wanted.2, factor)));
+        self.direct = Some(direct);
+        outcome
+    }
+
+    /// A⁻¹εBf and refinement of all channels, each until its correction is small.
+    fn solve_and_refine(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
+        let Some((_, _, _, factor)) = self.direct.as_ref().and_then(|direct| direct.factor.as_ref()) else {
+            return Err(SolveError::PatternMismatch {});
+        };
+        let n = self.active.len();
+        let right_hand_sides: Vec<f64> =
+            fields.iter().flat_map(|f| self.mass().times(f).into_iter().map(|x| epsilon * x)).collect();
+        let first = factor.solve(&right_hand_sides)?;
+        let mut iterates: Vec<Iterate> =
+            first.chunks_exact(n).map(|x| Iterate { x: x.to_vec(), ..Iterate::default() }).collect();
+        let mut open: Vec<usize> = (0..fields.len()).collect();
+        let mut previous = vec![f64::INFINITY; fields.len()];
+        for _ in 0..MOST_REFINEMENTS {
+            let residuals: Vec<f64> =
+                open.iter().flat_map(|&c| self.residual(&fields[c], &iterates[c].x, epsilon, scale)).collect();
+            let corrections = factor.solve(&residuals)?;
+            let mut still_open = Vec::new();
+            for (&c, correction) in open.iter().zip(corrections.chunks_exact(n)) {
+                let iterate = &mut iterates[c];
+                let size = norm(correction) / norm(&iterate.x).max(f64::MIN_POSITIVE);
+                iterate.refinement_steps += 1;
+                if !(size.is_finite() && size < 0.5 * previous[c] && size < 0.5) {
+                    return Err(SolveError::NotConverged { iterations: iterate.refinement_steps, residual: size });
+                }
+                previous[c] = size;
+                iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
+                if size > SMALL_CORRECTION {
+                    still_open.push(c);
+                }
+            }
+            open = still_open;
+            if open.is_empty() {
+                return Ok(iterates);
+            }
+        }
+        let residual = open.iter().map(|&c| previous[c]).fold(0.0, f64::max);
+        Err(SolveError::NotConverged { iterations: MOST_REFINEMENTS, residual })
+    }
+
+    fn iterate(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
+        let mut diagonal: Vec<f64> = self
+            .laplacian
+            .col_iter()
+            .map(|column| column.values().iter().map(|v| v * v).sum::<f64>() / scale)
+            .collect();
+        for (i, d) in diagonal.iter_mut().enumerate() {
+            *d += epsilon * self.mass().diagonal(i);
+        }
+        let apply = |x: &[f64]| {
+            let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
+            self.mass().times(x).iter().zip(smooth).map(|(b, l)| epsilon * b + l / scale).collect()
+        };
+        fields
+            .iter()
+            .map(|f| {
+                let right_hand_side: Vec<f64> = self.mass().times(f).into_iter().map(|x| epsilon * x).collect();
+                let mut x = f.clone();
+                let info = conjugate_gradient(apply, &diagonal, &right_hand_side, &mut x, &CgOptions::default())?;
+                Ok(Iterate { x, iterations: info.iterations, refinement_steps: 0 })
+            })
+            .collect()
+    }
+
+    /// εB(f − x) − Lᵀ(Lx): never with the assembled LᵀL, whose rounding the refinement is there to remove.
+    fn residual(&self, f: &[f64], x: &[f64], epsilon: f64, scale: f64) -> Vec<f64> {
+        let difference: Vec<f64> = f.iter().zip(x).map(|(f, x)| f - x).collect();
+        let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
+        self.mass().times(&difference).iter().zip(smooth).map(|(b, l)| epsilon * b - l / scale).collect()
+    }
+
+    fn finish(&self, iterate: Iterate, f: &[f64], vertices: usize, epsilon: f64, scale: f64) -> Solution {
+        let mut values = vec![None; vertices];
+        for (&v, &x) in self.active.iter().zip(&iterate.x) {
+            values[v as usize] = Some(x);
+        }
+        let (relative_residual, metric_norm) = if iterate.x.is_empty() {
+            (0.0, 0.0)
+        } else {
+            let right_hand_side = epsilon * norm(&self.mass().times(f));
+            let residual = norm(&self.residual(f, &iterate.x, epsilon, scale));
+            let difference: Vec<f64> = iterate.x.iter().zip(f).map(|(x, f)| x - f).collect();
+            let image = self.mass().times(&difference);
+            let square: f64 = image.iter().zip(&difference).map(|(a, b)| a * b).sum();
+            (if residual == 0.0 { 0.0 } else { residual / right_hand_side }, square.max(0.0).sqrt())
+        };
+        Solution {
+            values,
+            metric_norm,
+            relative_residual,
+            refinement_steps: iterate.refinement_steps,
+            iterations: iterate.iterations,
+        }
+    }
+}
+
+#[derive(Default)]
+struct Iterate {
+    x: Vec<f64>,
+    refinement_steps: usize,
+    iterations: usize,
+}
+
+impl Mass {
+    fn times(&self, x: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Identity => x.to_vec(),
+            Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
+            // Symmetric, so the product that gathers serves.
+            Self::Matrix(matrix) => transposed_product(matrix, x),
+        }
+    }
+
+    fn diagonal(&self, i: usize) -> f64 {
+        match self {
+            Self::Identity => 1.0,
+            Self::Diagonal(diagonal) => diagonal[i],
+            Self::Matrix(matrix) => matrix.get_entry(i, i).map_or(0.0, |entry| entry.into_value()),
+        }
+    }
+}
+
+/// The values of (LᵀL)/scale + εB on the pattern of LᵀL, which holds that of B.
+fn combine(gram: &CscMatrix<f64>, mass: &Mass, epsilon: f64, scale: f64) -> Vec<f64> {
+    let mut values: Vec<f64> = gram.values().iter().map(|value| value / scale).collect();
+    for j in 0..gram.ncols() {
+        let start = gram.col_offsets()[j];
+        let column = gram.col(j);
+        let rows = column.row_indices();
+        match mass {
+            Mass::Matrix(matrix) => {
+                let mass_column = matrix.col(j);
+                let mut place = 0;
+                for (&row, &value) in mass_column.row_indices().iter().zip(mass_column.values()) {
+                    while rows[place] < row {
+                        place += 1;
+                    }
+                    values[start + place] += epsilon * value;
+                }
+            }
+            Mass::Identity | Mass::Diagonal(_) => {
+                if let Ok(place) = rows.binary_search(&j) {
+                    values[start + place] += epsilon * mass.diagonal(j);
+                }
+            }
+        }
+    }
+    values
+}

@@ -1,0 +1,80 @@
+//! Products and parts of compressed sparse columns.
+
+use nalgebra_sparse::CscMatrix;
+
+/// A x.
+///
+/// # Panics
+/// Where `x` has not one entry per column.
+#[must_use]
+pub fn product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
+    assert_eq!(x.len(), matrix.ncols(), "one entry per column");
+    let mut y = vec![0.0; matrix.nrows()];
+    for (column, &scale) in matrix.col_iter().zip(x) {
+        for (&row, &value) in column.row_indices().iter().zip(column.values()) {
+            y[row] += value * scale;
+        }
+    }
+    y
+}
+
+/// Aᵀ x.
+///
+/// # Panics
+/// Where `x` has not one entry per row.
+#[must_use]
+pub fn transposed_product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
+    assert_eq!(x.len(), matrix.nrows(), "one entry per row");
+    matrix
+        .col_iter()
+        .map(|column| column.row_indices().iter().zip(column.values()).map(|(&row, &value)| value * x[row]).sum())
+        .collect()
+}
+
+/// xᵀ A x.
+///
+/// # Panics
+/// Where the matrix is not square of the size of `x`.
+#[must_use]
+pub fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
+    transposed_product(matrix, x).iter().zip(x).map(|(a, b)| a * b).sum()
+}
+
+/// AᵀA, with an entry wherever two columns of A share a row, even where it cancels.
+#[must_use]
+pub fn gram(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
+    &matrix.transpose() * matrix
+}
+
+/// ‖x‖₂.
+#[must_use]
+pub fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The rows and columns of a square matrix that `kept` lists, ascending.
+///
+/// # Panics
+/// Where an id in `kept` is not below the size of the matrix.
+#[must_use]
+pub fn submatrix(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
+    let mut place = vec![usize::MAX; matrix.nrows()];
+    for (new, &old) in kept.iter().enumerate() {
+        place[old as usize] = new;
+    }
+    let mut offsets = vec![0];
+    let (mut rows, mut values) = (Vec::new(), Vec::new());
+    for &old in kept {
+        let column = matrix.col(old as usize);
+        for (&row, &value) in column.row_indices().iter().zip(column.values()) {
+            if place[row] != usize::MAX {
+                rows.push(place[row]);
+                values.push(value);
+            }
+        }
+        offsets.push(rows.len());
+    }
+    // Ascending ids keep the rows of every column ascending, so the data is valid by construction.
+    CscMatrix::try_from_csc_data(kept.len(), kept.len(), offsets, rows, values)
+        .unwrap_or_else(|_| CscMatrix::zeros(kept.len(), kept.len()))
+}
