@@ -389,6 +389,7 @@ wrap_stage!(Parse(ParseError), Mesh(MeshError), Field(FieldError), Solve(SolveEr
 
 /// Something in the input that was put right or left out, and that the user should know.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Diagnostic {
     /// Stable name, such as `"DegenerateTriangle"`.
     pub code: &'static str,

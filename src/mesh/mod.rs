@@ -2,6 +2,7 @@
 
 mod connectivity;
 mod geometry;
+mod load;
 pub mod shapes;
 mod topology;
 mod validate;
@@ -11,6 +12,7 @@ use std::sync::Arc;
 
 pub use connectivity::{Connectivity, LinkKind};
 pub(crate) use geometry::{difference, dot, norm};
+pub use load::{LoadedMesh, load};
 pub use topology::MeshTopology;
 pub use weld::{Welded, weld};
 

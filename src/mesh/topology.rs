@@ -4,6 +4,7 @@ use super::connectivity::{Connectivity, LinkKind, corner_of};
 
 /// Invariants of a mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct MeshTopology {
     /// V − E + F, isolated vertices included.
     pub euler_characteristic: i64,

@@ -21,6 +21,7 @@ pub struct Smoothed {
 
 /// What a smoothing did to one channel. Norms and errors are of the field normalised to [0, 1] by the range of the input.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SmoothReport {
     /// Name of the method.
     pub method: &'static str,
@@ -46,12 +47,19 @@ pub struct SmoothReport {
     pub sobolev_before: f64,
     /// xᵀLx.
     pub sobolev_after: f64,
+    /// Constrained critical points whose type survived; `None` without constraints.
+    pub preserved: Option<usize>,
+    /// Extrema outside of the constrained set; `None` without constraints.
+    pub free_extrema: Option<usize>,
+    /// Bound on ‖x − x_e‖₂/‖e‖₂ for a perturbation e of f; `None` unless asked for.
+    pub perturbation_factor: Option<f64>,
     /// How the system was solved.
     pub solver: SolverReport,
 }
 
 /// How a system was solved.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SolverReport {
     /// `"cholesky"`, `"cg"`, or `"none"` where there was nothing to solve.
     pub route: &'static str,
@@ -69,6 +77,7 @@ pub struct SolverReport {
 
 /// fᵀLf and ‖Lf‖₂.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SmoothnessEnergies {
     /// fᵀLf, the Sobolev semi-norm S(f) of \[Patane09, section 4.1\].
     pub sobolev: f64,
@@ -130,6 +139,9 @@ pub(super) fn tikhonov(
         laplacian_norm: after.laplacian_norm,
         sobolev_before: before.sobolev,
         sobolev_after: after.sobolev,
+        preserved: None,
+        free_extrema: None,
+        perturbation_factor: None,
         solver: SolverReport {
             route: solved.route,
             unknowns: solved.unknowns,

@@ -1,0 +1,67 @@
+//! Typed arrays and plain objects. Arrays are copied both ways: a view of wasm memory dies when the memory grows.
+
+use js_sys::{Float64Array, Object, Uint32Array};
+use nalgebra_sparse::CscMatrix;
+use serde::Serialize;
+use wasm_bindgen::JsValue;
+
+use super::error::set;
+use crate::error::{Diagnostic, SolveError};
+
+/// A copy of a typed array; out of memory is an error, not a trap.
+pub(super) fn floats(array: &Float64Array) -> Result<Vec<f64>, SolveError> {
+    let mut copy = reserve(array.length() as usize)?;
+    copy.resize(array.length() as usize, 0.0);
+    array.copy_to(&mut copy);
+    Ok(copy)
+}
+
+/// A copy of a typed array; out of memory is an error, not a trap.
+pub(super) fn ids(array: &Uint32Array) -> Result<Vec<u32>, SolveError> {
+    let mut copy = reserve(array.length() as usize)?;
+    copy.resize(array.length() as usize, 0);
+    array.copy_to(&mut copy);
+    Ok(copy)
+}
+
+/// A copy of bytes; out of memory is an error, not a trap.
+pub(super) fn bytes(array: &js_sys::Uint8Array) -> Result<Vec<u8>, SolveError> {
+    let mut copy = reserve(array.length() as usize)?;
+    copy.resize(array.length() as usize, 0);
+    array.copy_to(&mut copy);
+    Ok(copy)
+}
+
+fn reserve<T>(length: usize) -> Result<Vec<T>, SolveError> {
+    let mut room = Vec::new();
+    match room.try_reserve_exact(length) {
+        Ok(()) => Ok(room),
+        Err(_) => Err(SolveError::OutOfMemory { bytes: (length * size_of::<T>()) as u64 }),
+    }
+}
+
+/// A plain object; `None` becomes null.
+pub(super) fn object(value: &impl Serialize) -> JsValue {
+    let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
+    value.serialize(&serializer).unwrap_or(JsValue::NULL)
+}
+
+/// Diagnostics as an array of plain objects.
+pub(super) fn diagnostics(warnings: &[Diagnostic]) -> JsValue {
+    object(&warnings)
+}
+
+/// Compressed sparse columns as in the types.
+pub(super) fn sparse(matrix: &CscMatrix<f64>) -> JsValue {
+    let narrow = |values: &[usize]| {
+        let values: Vec<u32> = values.iter().map(|&v| v as u32).collect();
+        Uint32Array::from(values.as_slice())
+    };
+    let object = Object::new();
+    set(&object, "rows", &JsValue::from_f64(matrix.nrows() as f64));
+    set(&object, "columns", &JsValue::from_f64(matrix.ncols() as f64));
+    set(&object, "columnPointers", &narrow(matrix.col_offsets()));
+    set(&object, "rowIndices", &narrow(matrix.row_indices()));
+    set(&object, "values", &Float64Array::from(matrix.values()));
+    object.into()
+}
