@@ -6,7 +6,7 @@ use wasm_bindgen::JsValue;
 use crate::error::{Detail, Error};
 
 /// What every exported function throws.
-pub(super) struct Thrown(Error);
+pub struct Thrown(Error);
 
 impl<E: Into<Error>> From<E> for Thrown {
     fn from(error: E) -> Self {

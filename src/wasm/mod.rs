@@ -15,3 +15,11 @@ use wasm_bindgen::prelude::*;
 pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
 }
+
+/// A panic is a defect of ours and ends in a trap without words: write them to the console first, for the bug report.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| {
+        web_sys::console::error_1(&JsValue::from_str(&format!("morse-smooth: {info}")));
+    }));
+}
