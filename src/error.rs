@@ -111,6 +111,13 @@ stage_error! {
             /// Its name.
             format: String,
         } => "reading or writing `{format}` is not supported",
+        /// The format is known, but not this variety of it.
+        UnsupportedFeature {
+            /// The format's name.
+            format: String,
+            /// What the file holds or asks for.
+            feature: String,
+        } => "`{format}` files with {feature} are not supported",
         /// The file ends before what its header promises.
         Truncated {
             /// Bytes that the header asks for, from the place where they should start.
@@ -165,6 +172,42 @@ stage_error! {
             /// How many.
             count: u64,
         } => "{count} {element} are more than 32-bit ids can name",
+        /// The memory that the content needs cannot be had.
+        OutOfMemory {
+            /// Bytes needed.
+            bytes: u64,
+        } => "{bytes} bytes of memory are needed, more than can be had here",
+        /// A field or array has not one value per vertex (or is no multiple of what it should be).
+        LengthMismatch {
+            /// The field's name, or `positions` or `triangles`.
+            field: String,
+            /// Length that fits.
+            expected: u64,
+            /// Length that came.
+            actual: u64,
+        } => "`{field}` needs {expected} values, but there are {actual}",
+        /// The format has no place for fields, which would be lost.
+        FieldsNotSupported {
+            /// The format's name.
+            format: String,
+        } => "`{format}` files cannot hold fields; write PLY or VTK, or no fields",
+        /// The format has no binary variety that can be written.
+        BinaryNotSupported {
+            /// The format's name.
+            format: String,
+        } => "`{format}` files are written as text only",
+        /// A coordinate to write is NaN or infinite.
+        NonFinitePosition {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} has a coordinate that is not finite",
+        /// A value to write is NaN or infinite.
+        NonFiniteValue {
+            /// The field.
+            field: String,
+            /// The vertex.
+            vertex: u32,
+        } => "the value of `{field}` at vertex {vertex} is not finite",
     }
 }
 

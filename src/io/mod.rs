@@ -1,6 +1,26 @@
 //! Bytes in, positions, triangles and named fields out, and back. Takes bytes, never paths.
+//!
+//! Numbers in text have double precision whatever type a header declares. Sizes that a header promises are checked against
+//! the bytes that are there before memory is set aside. `nan` and `inf` are read as they are: the mesh and its fields
+//! refuse them with their vertex, so that a field with gaps does not keep the rest of the file from loading.
+
+mod assembly;
+mod cursor;
+mod obj;
+mod off;
+mod ply;
+mod scan;
+mod table;
+mod vtk;
+mod write;
+
+use core::str::FromStr;
+
+pub use table::{Column, FieldFormat, FieldReadOptions, read_field};
+pub use write::{WriteOptions, write_mesh};
 
 use crate::error::{Diagnostic, ParseError};
+use scan::Scanner;
 
 /// A file format for meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,14 +34,51 @@ pub enum MeshFormat {
     Ply,
     /// Stereolithography.
     Stl,
-    /// Legacy VTK PolyData.
+    /// Legacy VTK `PolyData`.
     Vtk,
-    /// VTK XML PolyData.
+    /// VTK XML `PolyData`.
     Vtp,
     /// Binary glTF.
     Glb,
     /// ESRI ASCII grid.
     Asc,
+}
+
+impl MeshFormat {
+    const ALL: [Self; 8] = [Self::Obj, Self::Off, Self::Ply, Self::Stl, Self::Vtk, Self::Vtp, Self::Glb, Self::Asc];
+
+    /// The format's name, which is also the usual ending of its files: `"obj"`, `"off"`, …
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "obj",
+            Self::Off => "off",
+            Self::Ply => "ply",
+            Self::Stl => "stl",
+            Self::Vtk => "vtk",
+            Self::Vtp => "vtp",
+            Self::Glb => "glb",
+            Self::Asc => "asc",
+        }
+    }
+
+    /// The format of a name such as `"ply"`, in upper or lower case.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
+    }
+
+    fn unsupported(self) -> ParseError {
+        ParseError::UnsupportedFormat { format: self.name().to_owned() }
+    }
+}
+
+impl FromStr for MeshFormat {
+    type Err = ParseError;
+
+    fn from_str(name: &str) -> Result<Self, ParseError> {
+        Self::from_name(name).ok_or_else(|| ParseError::UnsupportedFormat { format: name.to_owned() })
+    }
 }
 
 /// What a mesh file holds, before it is checked as a mesh.
@@ -48,10 +105,75 @@ pub struct ReadOptions {
     pub file_name: Option<String>,
 }
 
-/// Reads a mesh file.
+/// Reads a mesh file: OBJ, OFF, PLY or legacy VTK `PolyData`.
+///
+/// Vertices keep their order, also those that no face names. Fields are the scalar vertex properties of PLY files and the
+/// point data of VTK files; an array `v` of several components makes the fields `v_0`, `v_1`, … A name that stands twice
+/// gets a number.
+///
+/// Warnings: `SkippedFace` (fewer than three corners), `PolygonTriangulated` (more than three), `SkippedData` (content
+/// without a place in [`MeshData`], such as colours or lines), `RenamedField`.
 ///
 /// # Errors
 /// [`ParseError`], see its variants.
-pub fn read_mesh(_bytes: &[u8], _options: &ReadOptions) -> Result<MeshData, ParseError> {
-    Err(ParseError::UnknownFormat {})
+pub fn read_mesh(bytes: &[u8], options: &ReadOptions) -> Result<MeshData, ParseError> {
+    if scan::without_byte_order_mark(bytes).trim_ascii().is_empty() {
+        return Err(ParseError::EmptyFile {});
+    }
+    let format = options
+        .format
+        .or_else(|| sniff(bytes))
+        .or_else(|| from_file_name(options.file_name.as_deref()?))
+        .ok_or(ParseError::UnknownFormat {})?;
+    match format {
+        MeshFormat::Obj => obj::read(bytes),
+        MeshFormat::Off => off::read(bytes),
+        MeshFormat::Ply => ply::read(bytes),
+        MeshFormat::Vtk => vtk::read(bytes),
+        MeshFormat::Stl | MeshFormat::Vtp | MeshFormat::Glb | MeshFormat::Asc => Err(format.unsupported()),
+    }
+}
+
+/// The format that the content shows.
+fn sniff(bytes: &[u8]) -> Option<MeshFormat> {
+    if bytes.starts_with(b"glTF") {
+        return Some(MeshFormat::Glb);
+    }
+    let mut text = Scanner::new(bytes);
+    text.next_row();
+    let start = text.rest();
+    let first = text.word_in_row()?;
+    if first == b"ply" {
+        return Some(MeshFormat::Ply);
+    }
+    if start.get(..vtk::MAGIC.len()).is_some_and(|start| start.eq_ignore_ascii_case(vtk::MAGIC)) {
+        return Some(MeshFormat::Vtk);
+    }
+    if first.starts_with(b"<?xml") || first.starts_with(b"<VTKFile") {
+        let head = &start[..start.len().min(1024)];
+        return head.windows(8).any(|window| window == b"<VTKFile").then_some(MeshFormat::Vtp);
+    }
+    if first.eq_ignore_ascii_case(b"ncols") {
+        return Some(MeshFormat::Asc);
+    }
+    if is_binary_stl(bytes) || first == b"solid" {
+        return Some(MeshFormat::Stl);
+    }
+    // These two may start with comments.
+    let mut text = Scanner::new(bytes).with_comments();
+    let first = text.word()?;
+    if off::keyword(first).is_some() {
+        return Some(MeshFormat::Off);
+    }
+    obj::KEYWORDS.contains(&first).then_some(MeshFormat::Obj)
+}
+
+/// A header of 80 bytes, the number of triangles, and 50 bytes for each: nothing else marks these files.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..).and_then(|rest| rest.first_chunk()).map(|&raw| u64::from(u32::from_le_bytes(raw)));
+    count.is_some_and(|count| count > 0 && bytes.len() as u64 == 84 + 50 * count)
+}
+
+fn from_file_name(name: &str) -> Option<MeshFormat> {
+    MeshFormat::from_name(name.rsplit_once('.')?.1)
 }
