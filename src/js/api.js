@@ -1,0 +1,18 @@
+// The public names, the same in every entry.
+import { Smoother } from './smoother.js';
+import { TriMesh } from './mesh.js';
+
+export { MorseSmoothError } from './error.js';
+export { readField, readMesh, writeMesh } from './files.js';
+export { TriMesh } from './mesh.js';
+export { Smoother, smooth } from './smoother.js';
+
+/** Of the package; the build puts it in. */
+export const version = __VERSION__;
+
+// `using mesh = new TriMesh(…)`, where the language has it.
+if (Symbol.dispose) {
+  for (const { prototype } of [TriMesh, Smoother]) {
+    Object.defineProperty(prototype, Symbol.dispose, { value: prototype.free, configurable: true, writable: true });
+  }
+}

@@ -1,0 +1,430 @@
+/// <reference lib="esnext.disposable" />
+
+/**
+ * Critical points, level sets and smoothing of scalar fields on triangle meshes.
+ *
+ * A *field* has one number per vertex, in the order of the mesh's vertices. Vertices and triangles are numbered from 0. Lengths
+ * are in the units of the positions, values in the units of the field; nothing is rescaled unless a comment says so. Every array
+ * that comes out is a copy of the caller's own: changing it changes nothing here, and nothing done here later changes it.
+ * Whatever fails throws a {@link MorseSmoothError}. An option that does not exist fails with `UnknownOption`, one out of its range
+ * with `InvalidOption`, one that means nothing for what was asked with `InapplicableOption`.
+ *
+ * @module
+ */
+
+/** Numbers as they are taken. Values of a plain array must all be of type `number` (otherwise `InvalidArgument`). */
+export type Numbers = Float64Array | Float32Array | readonly number[];
+/** Vertex numbers as they are taken: whole, from 0 to 2³² − 1. */
+export type Ids = Uint32Array | Uint16Array | readonly number[];
+
+/**
+ * Loads the WebAssembly module. In a browser, wait for it before any other call (otherwise `NotInitialized`); in Node the import
+ * has already done it. Calling it again is free and gives the same promise; after a failure it tries anew.
+ *
+ * @throws `LoadFailed` where the module cannot be fetched or compiled; `detail` has `url` and `status` if a server answered.
+ */
+export default function init(options?: InitOptions): Promise<void>;
+
+/** What {@link init} takes. */
+export interface InitOptions {
+  /**
+   * Where `morse_smooth_bg.wasm` is, or its content. Without it the file beside the script is fetched, and with
+   * `morse-smooth/inline` nothing is.
+   */
+  wasm?: URL | string | Request | Response | BufferSource | WebAssembly.Module;
+}
+
+/** Of this package, such as `"0.1.0"`. */
+export const version: string;
+
+/** Any failure of this package. */
+export class MorseSmoothError extends Error {
+  /** For code that carries errors across threads; this package makes its own. */
+  constructor(code: string, message: string, detail?: Record<string, unknown>, options?: { cause?: unknown });
+  /**
+   * Names the failure for programs; stays the same while messages improve.
+   *
+   * - files: `EmptyFile`, `UnknownFormat`, `UnsupportedFormat`, `Truncated`, `UnexpectedEnd`, `InvalidNumber`, `InvalidSyntax`,
+   *   `MissingElement`, `FaceIndexOutOfBounds`, `UnknownColumn`, `TooLarge`
+   * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `NonFinitePosition`, `PositionOverflow`,
+   *   `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
+   * - fields: `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`
+   * - systems: `NotPositiveDefinite`, `NotConverged`, `OutOfMemory`
+   * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
+   * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`
+   * - `InternalError`: a bug of ours, always worth a report
+   */
+  readonly code: string;
+  /** The numbers and names in the message: `vertex`, `triangle`, `index`, `line`, `option`, `expected`, `bytes`, … */
+  readonly detail: Record<string, unknown>;
+}
+
+// ---------------------------------------------------------------------------------------------------------------- files
+
+export type MeshFormat = 'obj' | 'off' | 'ply' | 'vtk';
+
+/** Something in the input that was put right or left out. */
+export interface Diagnostic {
+  /** Stable name. */
+  code: string;
+  /** One sentence for people. */
+  message: string;
+  /** How many there are. */
+  count: number;
+  /** Numbers of the first few. */
+  examples: number[];
+}
+
+/** What {@link readMesh} found. */
+export interface MeshFile {
+  mesh: TriMesh;
+  /** Per-vertex numbers of the file, by their name there. */
+  fields: Record<string, Float64Array>;
+  format: MeshFormat;
+  warnings: Diagnostic[];
+}
+
+/** What {@link readMesh} takes. */
+export interface ReadMeshOptions {
+  /** Taken at its word. Default: recognised from the content, or else from the ending of `fileName`. */
+  format?: MeshFormat;
+  /** Only its ending matters. */
+  fileName?: string;
+  /** Make one vertex of all vertices at the same position. Default `false`. */
+  weld?: boolean;
+}
+
+/**
+ * Reads a mesh and the fields that come with it: OBJ, OFF, PLY (text, binary of both byte orders), legacy VTK PolyData (text,
+ * binary). Polygons are cut into triangles.
+ *
+ * @throws the codes for files and for meshes of {@link MorseSmoothError.code}
+ */
+export function readMesh(bytes: Uint8Array, options?: ReadMeshOptions): MeshFile;
+
+/** What {@link readField} takes. */
+export interface ReadFieldOptions {
+  /** Default: `"csv"` where the first line has separators, else `"txt"`. */
+  format?: 'txt' | 'csv';
+  /** Of a table: the name in its first line, or the number from 0. Default: the first column. */
+  column?: string | number;
+}
+
+/**
+ * Reads a field from text: a number on each line, or a column of a table.
+ *
+ * @throws `InvalidNumber` with the `line`; `UnknownColumn`; `EmptyFile`
+ */
+export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
+
+/** What {@link writeMesh} takes. */
+export interface WriteMeshOptions {
+  format: MeshFormat;
+  /** Fields to write along, by name; PLY and VTK have room for them (otherwise `InapplicableOption`). */
+  fields?: Record<string, Numbers>;
+  /** PLY and VTK can be binary. Default `false`. */
+  binary?: boolean;
+}
+
+/** Writes a mesh, and fields where the format has room for them, in double precision. */
+export function writeMesh(mesh: TriMesh, options: WriteMeshOptions): Uint8Array;
+
+// ----------------------------------------------------------------------------------------------------------------- mesh
+
+/** What kind of surface a mesh is. */
+export interface MeshTopology {
+  /** Vertices − edges + triangles. */
+  eulerCharacteristic: number;
+  /** Connected parts of the surface; vertices of no triangle are none. */
+  components: number;
+  /** Closed walks along the boundary. */
+  boundaryLoops: number;
+  /** No boundary edge. */
+  closed: boolean;
+  orientable: boolean;
+  /** Number of handles, all components together; `null` where it is not defined: non-manifold or not orientable. */
+  genus: number | null;
+  /** Edges with three triangles or more. */
+  nonManifoldEdges: number;
+  /** Vertices around which the triangles are neither one fan nor one disk. */
+  nonManifoldVertices: number;
+  /** Vertices of no triangle. */
+  isolatedVertices: number;
+  /** Triangles that name a vertex twice (they were dropped) or have no area (they were kept). */
+  degenerateTriangles: number;
+}
+
+/**
+ * A triangle mesh. Any triangles will do: closed, with boundary, of several parts, non-manifold, not orientable.
+ *
+ * It lives in WebAssembly memory: call {@link TriMesh.free} when done, or declare it with `using`. Used after that it throws
+ * `UseAfterFree`. (The garbage collector also gets there, but not soon.)
+ */
+export class TriMesh {
+  /**
+   * @param positions x, y, z of vertex 0, then of vertex 1, …
+   * @param triangles three vertex numbers for each triangle
+   * @param options `weld`: make one vertex of all vertices at the same position. Default `false`
+   * @throws `PositionsNotTriples`, `TrianglesNotTriples`, `NonFinitePosition` (`vertex`), `IndexOutOfBounds` (`triangle`, `index`),
+   *   `EmptyMesh`
+   */
+  constructor(positions: Numbers, triangles: Ids, options?: { weld?: boolean });
+
+  readonly vertexCount: number;
+  readonly edgeCount: number;
+  readonly triangleCount: number;
+  /** Sum of the triangles' areas. */
+  readonly area: number;
+  readonly topology: Readonly<MeshTopology>;
+  /** What was put right or left out when the mesh was made. */
+  readonly warnings: Diagnostic[];
+
+  /** x, y, z of each vertex. */
+  positions(): Float64Array;
+  /** Three vertex numbers for each triangle. */
+  triangles(): Uint32Array;
+
+  /**
+   * Minima, saddles and maxima of a field. Equal values are told apart by their vertex numbers, so that at δ = 0 the index sum
+   * is the Euler characteristic, whatever the field.
+   *
+   * @throws `LengthMismatch` (`expected`, `actual`), `NonFiniteValue` (`vertex`)
+   */
+  criticalPoints(values: Numbers, options?: DeltaOptions): CriticalPoints;
+
+  /**
+   * The lines on which the field has the given values, or `count` values that cut its range into
+   * equal parts (none where the field is constant). At most 10,000.
+   *
+   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`
+   */
+  levelSets(values: Numbers, levels: Numbers | { count: number }): LevelSets;
+
+  /** How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. */
+  smoothness(values: Numbers, options?: { weights?: LaplacianWeights }): Smoothness;
+
+  /**
+   * The Laplacian L, n × n: l_ij = −w_ij for an edge, rows that sum to 0, so positive semi-definite where symmetric.
+   * Default weights `"cotangent"`.
+   */
+  laplacian(options?: { weights?: LaplacianWeights }): SparseMatrix;
+
+  /**
+   * The mass matrix B, n × n, symmetric: `"galerkin"` (consistent; default) or `"lumped"` (its diagonal of row sums). Its entries
+   * sum to the area with scale `"raw"`, and to the number of vertices with `"meanOne"` (default).
+   */
+  mass(options?: { kind?: 'galerkin' | 'lumped'; massScale?: MassScale }): SparseMatrix;
+
+  /** Gives the memory back. Once is enough, twice does no harm. `Busy` from within a call's `onProgress`. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+// ------------------------------------------------------------------------------------------------------ analysis of a field
+
+/**
+ * How a saddle is recognised when δ > 0, going round the vertices next to it: by neighbours in a row that are beyond δ on
+ * opposite sides (`"consecutive"`), or after leaving out the ones within δ (`"skip"`).
+ */
+export type Link = 'consecutive' | 'skip';
+
+/** Which critical points to tell. */
+export interface DeltaOptions {
+  /** Differences up to δ do not count. Zero or more; default 0. */
+  delta?: number;
+  /** `"relative"` (default): δ is a fraction of the greatest difference along an edge. `"absolute"`: in units of the field. */
+  deltaIs?: 'relative' | 'absolute';
+  /** Default `"consecutive"`. */
+  link?: Link;
+  /**
+   * `"strict"` (default): an extremum is beyond δ of all its neighbours, so a greater δ never has more critical points.
+   * `"literal"`: the paper's text to the letter, by which extrema grow with δ; for comparison.
+   */
+  rule?: 'strict' | 'literal';
+}
+
+/** The critical points of a field: entry k of every array is about the same vertex. Vertices ascend. */
+export interface CriticalPoints {
+  vertices: Uint32Array;
+  /** −1 minimum, 0 saddle, 1 maximum. */
+  kinds: Int8Array;
+  /** Of a saddle: 1 for an ordinary one, 2 for a monkey saddle, … Of an extremum: 1. */
+  multiplicities: Uint32Array;
+  /** 1 on the boundary, else 0. */
+  onBoundary: Uint8Array;
+  counts: CriticalCounts;
+}
+
+/** How many critical points there are. */
+export interface CriticalCounts {
+  minima: number;
+  maxima: number;
+  /** Each as often as its multiplicity says. */
+  saddles: number;
+  /** At δ = 0 the sum of the indices of all vertices, equal to the Euler characteristic; `null` for δ > 0. */
+  indexSum: number | null;
+}
+
+/** Lines of points: line k has the points `offsets[k]` up to, not including, `offsets[k + 1]`. */
+export interface Polylines {
+  /** x, y, z of each point. */
+  points: Float64Array;
+  /** One more than there are lines. */
+  offsets: Uint32Array;
+}
+
+/** Level sets. A closed line does not repeat its first point. */
+export interface LevelSets extends Polylines {
+  /** The level of each line. */
+  levels: Float64Array;
+  /** 1 for each line that closes, 0 for one that ends at the boundary. */
+  closed: Uint8Array;
+  /** The two ends a < b of the edge that each point lies on. */
+  edges: Uint32Array;
+  /** Where on its edge each point lies: t of (1 − t)·a + t·b. */
+  parameters: Float64Array;
+}
+
+/** See {@link TriMesh.smoothness}. */
+export interface Smoothness {
+  sobolev: number;
+  laplacianNorm: number;
+}
+
+/** A matrix by its columns: column j has the entries `columnPointers[j]` up to, not including, `columnPointers[j + 1]`. */
+export interface SparseMatrix {
+  rows: number;
+  columns: number;
+  columnPointers: Uint32Array;
+  /** The row of each entry, ascending in each column. */
+  rowIndices: Uint32Array;
+  values: Float64Array;
+}
+
+// ------------------------------------------------------------------------------------------------------------- smoothing
+
+/**
+ * Weights w_ij of the Laplacian: `"cotangent"` is (cot α + cot β)/2 of the angles facing the edge, `"uniform"` is 1, both
+ * symmetric; `"meanValue"`, and `"normalizedCotangent"` with each row divided by its weight sum, are not.
+ */
+export type LaplacianWeights = 'cotangent' | 'meanValue' | 'normalizedCotangent' | 'uniform';
+
+/** `"meanOne"` multiplies B by n/area, so that ε means the same in metres and in millimetres; `"raw"` leaves it. */
+export type MassScale = 'meanOne' | 'raw';
+
+/**
+ * How closeness to f is measured, that is the B of (LᵀL + εB) x = εBf: the identity (the paper's eq. 3), the consistent mass
+ * matrix or the lumped one (its eq. 5).
+ */
+export type Metric = 'identity' | 'mass' | 'lumped';
+
+/** How far a long call has come. */
+export interface Progress {
+  /** What begins now. */
+  phase: 'analysis' | 'factorization' | 'solve' | 'report';
+  /** How much of the whole is done: from 0 to 1. */
+  fraction: number;
+}
+
+/** How systems are set up and solved. */
+export interface SmootherOptions {
+  /** Default `"cotangent"`. */
+  weights?: LaplacianWeights;
+  /** `"cholesky"` factorises, `"cg"` iterates; `"auto"` (default) chooses. */
+  solver?: 'auto' | 'cholesky' | 'cg';
+  /** Called while work goes on. What it throws comes out of that call; the objects stay usable. */
+  onProgress?: (progress: Progress) => void;
+}
+
+/** Of Tikhonov smoothing. */
+export interface TikhonovOptions {
+  /**
+   * ε > 0, without a unit (with scale `"raw"`: per area). Large keeps the field, small smooths it; the range of interest is
+   * wide, say 1e-6 to 1e4.
+   */
+  epsilon: number;
+  /** Default `"mass"`. */
+  metric?: Metric;
+  /** Default `"meanOne"`. Metric `"identity"` has no mass to scale: `InapplicableOption`. */
+  massScale?: MassScale;
+}
+
+/** Smooths fields on one mesh. What depends on the mesh alone is worked out once. */
+export class Smoother {
+  /** The mesh may be freed afterwards. */
+  constructor(mesh: TriMesh, options?: SmootherOptions);
+
+  /**
+   * The minimiser x of ‖Lx‖² + ε·(x − f)ᵀB(x − f), from (LᵀL + εB) x = εBf. Constants stay as they are.
+   *
+   * @param options `channels`: how many numbers each vertex has, side by side. Default 1
+   * @throws `InvalidOption` for ε ≤ 0; `LengthMismatch`, `NonFiniteValue`; `NotPositiveDefinite` or `NotConverged` where ε is too
+   *   small for the mesh
+   */
+  tikhonov(values: Numbers, options: TikhonovOptions & { channels?: number }): Smoothed;
+
+  /** Gives the memory back, as {@link TriMesh.free} does. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+/** A smoothed field and what became of it. */
+export interface Smoothed {
+  /** As they came in: same units, same order, channels side by side. */
+  values: Float64Array;
+  /** Of the first channel. */
+  report: SmoothReport;
+  /** Of every channel. */
+  reports: SmoothReport[];
+}
+
+/** What smoothing did to a field f. Norms and differences are those of f scaled to [0, 1], so that fields can be compared. */
+export interface SmoothReport {
+  method: string;
+  /** Of the paper, such as `"(5)"`. */
+  equation: string;
+  epsilon: number | null;
+  constraintCount: number;
+  before: CriticalCounts;
+  after: CriticalCounts;
+  /** Greatest change: max |x − f|. */
+  lInfinity: number;
+  /** ‖x − f‖₂. */
+  l2: number;
+  /** ‖x − f‖ in the metric that was used. */
+  metricNorm: number;
+  /** ‖Lx‖₂. */
+  laplacianNorm: number;
+  /** fᵀLf. */
+  sobolevBefore: number;
+  /** xᵀLx. */
+  sobolevAfter: number;
+  /** `null` without constraints. */
+  preserved: number | null;
+  /** `null` without constraints. */
+  freeExtrema: number | null;
+  /** `null` unless it was asked for. */
+  perturbationFactor: number | null;
+  solver: SolverReport;
+}
+
+/** How the system was solved. */
+export interface SolverReport {
+  /** `"none"` where there was nothing to solve. */
+  route: 'cholesky' | 'cg' | 'none';
+  unknowns: number;
+  factorNonzeros: number;
+  /** ‖b − Ax‖/‖b‖ of the system solved. */
+  relativeResidual: number;
+  refinementSteps: number;
+  /** Of conjugate gradients; 0 with a factorisation. */
+  iterations: number;
+}
+
+/** Smooths one field once. For several, or for several ε, a {@link Smoother} is quicker. */
+export function smooth(mesh: TriMesh, values: Numbers, options: SmoothOptions): Smoothed;
+
+/** What {@link smooth} takes. */
+export interface SmoothOptions extends SmootherOptions, TikhonovOptions {
+  method?: 'tikhonov';
+}
