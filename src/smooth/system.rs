@@ -112,7 +112,7 @@ impl TikhonovSystem {
         let solutions = solutions
             .into_iter()
             .zip(&fields)
-            .map(|(iterate, f)| self.finish(iterate, f, mesh.vertex_count(), epsilon, scale))
+            .map(|(iterate, f)| self.finish(&iterate, f, mesh.vertex_count(), epsilon, scale))
             .collect();
         Ok(Solved { solutions, route, unknowns: self.active.len(), factor_nonzeros })
     }
@@ -244,7 +244,7 @@ impl TikhonovSystem {
         self.mass().times(&difference).iter().zip(smooth).map(|(b, l)| epsilon * b - l / scale).collect()
     }
 
-    fn finish(&self, iterate: Iterate, f: &[f64], vertices: usize, epsilon: f64, scale: f64) -> Solution {
+    fn finish(&self, iterate: &Iterate, f: &[f64], vertices: usize, epsilon: f64, scale: f64) -> Solution {
         let mut values = vec![None; vertices];
         for (&v, &x) in self.active.iter().zip(&iterate.x) {
             values[v as usize] = Some(x);

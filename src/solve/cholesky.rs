@@ -15,7 +15,7 @@ use super::symbolic::FactorSize;
 use crate::error::SolveError;
 
 /// What a 32-bit address space can give to one factor beside everything else.
-const LARGEST_FACTOR: u64 = if usize::BITS == 32 { 3_000_000_000 } else { u64::MAX };
+const LARGEST_FACTOR: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
 #[derive(Debug, Clone)]

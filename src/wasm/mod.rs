@@ -1,4 +1,5 @@
 //! The bindings: JavaScript values in and out, no mathematics. The entries in `src/js` wrap what is exported here.
+#![allow(unreachable_pub, reason = "wasm-bindgen exports what is `pub`, however private the module")]
 
 mod convert;
 mod error;
