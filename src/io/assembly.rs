@@ -44,7 +44,7 @@ impl Assembly {
 
     /// Room for triangles that a header promises; the bytes must have been checked.
     pub(super) fn reserve_triangles(&mut self, count: u64) -> Result<(), ParseError> {
-        reserve(&mut self.triangles, count as usize * 3)
+        reserve(&mut self.triangles, (count as usize).saturating_mul(3))
     }
 
     /// Adds a corner to the face that is being read.

@@ -71,8 +71,7 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    /// The next number as an integer: what lies beyond 64 signed bits stays there as an id that cannot exist, and the
-    /// fraction of a floating-point id is cut off.
+    /// The next number as an integer. What is none (a fraction, NaN, more than 63 bits) becomes an id that cannot exist.
     pub(super) fn integer(&mut self, kind: NumberType) -> Result<i64, ParseError> {
         Ok(match kind {
             NumberType::I8 => i64::from(i8::from_le_bytes(self.take()?)),
@@ -85,8 +84,7 @@ impl<'a> Cursor<'a> {
             NumberType::U64 => i64::try_from(u64::from_le_bytes(self.take()?)).unwrap_or(i64::MAX),
             NumberType::F32 | NumberType::F64 => {
                 let value = self.number(kind)?;
-                // NaN would become the valid id 0.
-                if value.is_nan() { i64::MIN } else { value as i64 }
+                if value.fract() == 0.0 { value as i64 } else { i64::MIN }
             }
         })
     }
@@ -123,6 +121,8 @@ mod tests {
     #[test]
     fn ids_that_cannot_be_are_no_ids() {
         assert_eq!(Cursor::new(&[0xff; 8], false).integer(NumberType::U64), Ok(i64::MAX));
-        assert_eq!(Cursor::new(&f32::NAN.to_le_bytes(), false).integer(NumberType::F32), Ok(i64::MIN));
+        for (value, id) in [(f32::NAN, i64::MIN), (1.5, i64::MIN), (f32::INFINITY, i64::MIN), (-1.0, -1), (7.0, 7)] {
+            assert_eq!(Cursor::new(&value.to_le_bytes(), false).integer(NumberType::F32), Ok(id));
+        }
     }
 }

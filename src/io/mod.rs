@@ -1,8 +1,8 @@
 //! Bytes in, positions, triangles and named fields out, and back. Takes bytes, never paths.
 //!
 //! Numbers in text have double precision whatever type a header declares. Sizes that a header promises are checked against
-//! the bytes that are there before memory is set aside. `nan` and `inf` are read as they are: the mesh and its fields
-//! refuse them with their vertex, so that a field with gaps does not keep the rest of the file from loading.
+//! the bytes that are there before memory is set aside. `nan` and `inf` are read as they are, and a number beyond double
+//! precision is infinite: the mesh and its fields refuse them with their vertex, so that a field with gaps does not keep the rest of the file from loading.
 
 mod assembly;
 mod cursor;
@@ -116,6 +116,16 @@ pub struct ReadOptions {
 ///
 /// # Errors
 /// [`ParseError`], see its variants.
+///
+/// # Example
+/// ```
+/// use morse_smooth::io::{MeshFormat, ReadOptions, read_mesh};
+///
+/// let data = read_mesh(b"OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", &ReadOptions::default())?;
+/// assert_eq!(data.format, MeshFormat::Off);
+/// assert_eq!(data.triangles, [0, 1, 2]);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
 pub fn read_mesh(bytes: &[u8], options: &ReadOptions) -> Result<MeshData, ParseError> {
     if scan::without_byte_order_mark(bytes).trim_ascii().is_empty() {
         return Err(ParseError::EmptyFile {});

@@ -82,12 +82,12 @@ fn read_face(text: &mut Scanner<'_>, assembly: &mut Assembly, largest: &mut Larg
             1.. => index - 1,
             _ => vertices.saturating_add(index),
         };
-        if corner < 0 {
-            let face = assembly.faces();
+        let face = assembly.faces();
+        if !(0..i64::from(u32::MAX)).contains(&corner) {
             return Err(ParseError::FaceIndexOutOfBounds { face, index, vertices: vertices as u64 });
         }
         if index > largest.index {
-            *largest = Largest { index, face: assembly.faces() };
+            *largest = Largest { index, face };
         }
         // Whether the vertex exists is known at the end of the file only.
         assembly.corner(corner, u64::from(u32::MAX))?;

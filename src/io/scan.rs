@@ -224,7 +224,12 @@ pub(super) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
 
 /// A number in double precision; `nan` and `inf` as they are.
 pub(super) fn parse_number(word: &[u8]) -> Option<f64> {
-    core::str::from_utf8(word).ok()?.parse().ok()
+    let text = core::str::from_utf8(word).ok()?;
+    text.parse().ok().or_else(|| {
+        // C libraries may write the kind of NaN with it: `nan(ind)`, `-nan(0x1)`.
+        let kind = text.trim_start_matches(['+', '-']).strip_prefix("nan(")?.strip_suffix(')')?;
+        kind.bytes().all(|byte| byte.is_ascii_alphanumeric()).then_some(f64::NAN)
+    })
 }
 
 /// A signed integer.
@@ -279,6 +284,24 @@ mod tests {
         for text in ["a b\n\nc\nd", "a\tb\r\n\r\nc \r\nd\r\n", "a b\r\rc\rd", "\u{feff}a b\n\n c\nd\n"] {
             assert_eq!(words(&mut Scanner::new(text.as_bytes())), expected, "{text:?}");
         }
+    }
+
+    #[test]
+    fn numbers_are_exact_and_nothing_else_is_a_number() {
+        for (text, value) in
+            [("0.1", 0.1), ("+1.", 1.0), ("-.5E+1", -5.0), ("5e-324", 5e-324), ("-INF", f64::NEG_INFINITY)]
+        {
+            assert_eq!(parse_number(text.as_bytes()), Some(value), "{text}");
+        }
+        for text in ["nan", "-NaN", "nan(ind)", "-nan(0x1)"] {
+            assert!(parse_number(text.as_bytes()).is_some_and(f64::is_nan), "{text}");
+        }
+        for text in
+            ["", "-", ".", "e5", "1,5", "0x10", "1e", "1_000", "1.#INF", "nan(", "nan()x", "NA", "--1", "\u{661}"]
+        {
+            assert_eq!(parse_number(text.as_bytes()), None, "{text}");
+        }
+        assert_eq!((parse_count(b"-1"), parse_count(b"1.0"), parse_integer(b"-1")), (None, None, Some(-1)));
     }
 
     #[test]

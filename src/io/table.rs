@@ -63,6 +63,15 @@ pub struct FieldReadOptions {
 /// [`ParseError::EmptyFile`], [`ParseError::InvalidNumber`] for a cell that is empty or no number,
 /// [`ParseError::UnknownColumn`], [`ParseError::UnsupportedFormat`] for `NumPy` arrays. `nan` and `inf` are read as they
 /// are; whoever puts the field on a mesh refuses them with their vertex.
+///
+/// # Example
+/// ```
+/// use morse_smooth::io::{Column, FieldReadOptions, read_field};
+///
+/// let options = FieldReadOptions { column: Some(Column::Name("height".to_owned())), ..Default::default() };
+/// assert_eq!(read_field(b"id,height\n0,1.5\n1,2.5\n", &options)?, [1.5, 2.5]);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
 pub fn read_field(bytes: &[u8], options: &FieldReadOptions) -> Result<Vec<f64>, ParseError> {
     let bytes = without_byte_order_mark(bytes);
     if bytes.trim_ascii().is_empty() {

@@ -30,6 +30,18 @@ impl Default for WriteOptions {
 /// [`ParseError::UnsupportedFormat`], [`ParseError::FieldsNotSupported`] and [`ParseError::BinaryNotSupported`] for OBJ
 /// and OFF, [`ParseError::LengthMismatch`], [`ParseError::FaceIndexOutOfBounds`], [`ParseError::NonFinitePosition`],
 /// [`ParseError::NonFiniteValue`], [`ParseError::TooLarge`].
+///
+/// # Example
+/// ```
+/// use morse_smooth::io::{MeshFormat, ReadOptions, WriteOptions, read_mesh, write_mesh};
+///
+/// let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+/// let options = WriteOptions { format: MeshFormat::Vtk, binary: true };
+/// let bytes = write_mesh(&positions, &[0, 1, 2], &[("height", &[0.1, 0.2, 0.3])], &options)?;
+/// let data = read_mesh(&bytes, &ReadOptions::default())?;
+/// assert_eq!(data.fields, [("height".to_owned(), vec![0.1, 0.2, 0.3])]);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
 pub fn write_mesh(
     positions: &[f64],
     triangles: &[u32],

@@ -1,6 +1,5 @@
 //! The integration tests, in one binary.
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
-#![allow(clippy::print_stderr, reason = "a test that cannot run says so")]
 
 mod io_malformed;
 mod io_read;

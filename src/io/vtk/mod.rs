@@ -1,22 +1,17 @@
 //! Legacy VTK files with a `PolyData` set, as text or binary (big endian).
 
+mod data;
+
+use data::{ArrayType, Data};
+
 use super::assembly::{Assembly, check_count, check_length};
-use super::cursor::{Cursor, NumberType};
-use super::scan::{Scanner, excerpt, parse_count, require, reserve};
+use super::cursor::NumberType;
+use super::scan::{Scanner, excerpt, parse_count, reserve};
 use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 
 /// How a file of this format starts.
 pub(super) const MAGIC: &[u8] = b"# vtk DataFile";
-
-/// The type of an array.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum ArrayType {
-    Number(NumberType),
-    /// Eight to a byte.
-    Bit,
-    Text,
-}
 
 /// What the attributes that follow belong to, and how many tuples they have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,8 +44,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
         return Err(text.syntax(format!("`ASCII` or `BINARY` should stand here, not `{}`", excerpt(encoding))));
     }
     text.rest_of_line();
-    let mut reader = Reader { text, binary, points: None, owner: Owner::File, assembly: Assembly::default() };
-    while let Some(keyword) = reader.text.word() {
+    let mut reader =
+        Reader { data: Data { text, binary }, points: None, owner: Owner::File, assembly: Assembly::default() };
+    while let Some(keyword) = reader.data.text.word() {
         reader.section(&keyword.to_ascii_uppercase())?;
     }
     if reader.points.is_none() {
@@ -60,8 +56,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
 }
 
 struct Reader<'a> {
-    text: Scanner<'a>,
-    binary: bool,
+    data: Data<'a>,
     points: Option<u64>,
     owner: Owner,
     assembly: Assembly,
@@ -72,7 +67,7 @@ impl Reader<'_> {
     fn section(&mut self, keyword: &[u8]) -> Result<(), ParseError> {
         match keyword {
             b"DATASET" => {
-                let kind = self.text.name_in_row("the kind of data set")?;
+                let kind = self.data.text.name_in_row("the kind of data set")?;
                 if !kind.eq_ignore_ascii_case(b"polydata") {
                     let format = MeshFormat::Vtk.name().to_owned();
                     return Err(ParseError::UnsupportedFeature {
@@ -88,19 +83,19 @@ impl Reader<'_> {
             b"VERTICES" => self.read_cells(None, "vertex cells"),
             b"LINES" => self.read_cells(None, "lines"),
             b"POINT_DATA" => {
-                let count = self.text.count_in_row("the number of points")?;
+                let count = self.data.text.count_in_row("the number of points")?;
                 check_length("POINT_DATA", self.points.unwrap_or(0), count)?;
                 self.owner = Owner::Points(count);
                 Ok(())
             }
             b"CELL_DATA" => {
-                self.owner = Owner::Cells(self.text.count_in_row("the number of cells")?);
+                self.owner = Owner::Cells(self.data.text.count_in_row("the number of cells")?);
                 Ok(())
             }
             b"METADATA" => {
                 // It ends with an empty line.
-                self.text.rest_of_line();
-                while !self.text.rest().is_empty() && !self.text.rest_of_line().trim_ascii().is_empty() {}
+                self.data.text.rest_of_line();
+                while !self.data.text.rest().is_empty() && !self.data.text.rest_of_line().trim_ascii().is_empty() {}
                 Ok(())
             }
             b"FIELD" => self.read_field_data(),
@@ -109,28 +104,27 @@ impl Reader<'_> {
     }
 
     fn read_points(&mut self) -> Result<(), ParseError> {
-        let count = self.text.count_in_row("the number of points")?;
-        let kind = self.array_type()?;
+        let count = self.data.text.count_in_row("the number of points")?;
+        let kind = self.data.array_type()?;
         if self.points.replace(count).is_some() {
-            return Err(self.text.syntax("POINTS stands twice"));
+            return Err(self.data.text.syntax("POINTS stands twice"));
         }
         check_count("vertices", count)?;
-        let mut positions = Vec::new();
-        self.numbers(kind, count.saturating_mul(3), &mut positions, reserve, |positions, value| {
-            positions.push(value);
-        })?;
-        self.assembly.positions = positions;
+        let block = self.data.block(kind, count.saturating_mul(3))?;
+        let positions = &mut self.assembly.positions;
+        reserve(positions, count as usize * 3)?;
+        self.data.numbers(&block, |value| positions.push(value))?;
         Ok(())
     }
 
     /// Reads cells of either layout; without `kind` passes over them.
     fn read_cells(&mut self, kind: Option<Cells>, what: &str) -> Result<(), ParseError> {
-        let first = self.text.count_in_row("the number of cells")?;
-        let second = self.text.count_in_row("the number of ids")?;
+        let first = self.data.text.count_in_row("the number of cells")?;
+        let second = self.data.text.count_in_row("the number of ids")?;
         let Some(vertices) = self.points else {
-            return Err(self.text.syntax(format!("{what} stand before POINTS")));
+            return Err(self.data.text.syntax(format!("{what} stand before POINTS")));
         };
-        let offsets = self.text.peek_word().is_some_and(|word| word.eq_ignore_ascii_case(b"OFFSETS"));
+        let offsets = self.data.text.peek_word().is_some_and(|word| word.eq_ignore_ascii_case(b"OFFSETS"));
         let cells = if offsets {
             self.read_offset_cells(kind, first, second, vertices)?
         } else {
@@ -151,11 +145,11 @@ impl Reader<'_> {
         vertices: u64,
     ) -> Result<u64, ParseError> {
         check_count("cells", cells)?;
-        let line = self.text.line();
-        let mut assembly = core::mem::take(&mut self.assembly);
+        let line = self.data.text.line();
+        let assembly = &mut self.assembly;
         let mut left = 0;
         let mut found = 0;
-        self.integers(NumberType::I32, size, |value| {
+        self.data.integers(NumberType::I32, size, |value| {
             if left > 0 {
                 left -= 1;
                 if kind.is_some() {
@@ -169,11 +163,10 @@ impl Reader<'_> {
                 found += 1;
             }
             if left == 0 {
-                close(&mut assembly, kind);
+                close(assembly, kind);
             }
             Ok(())
         })?;
-        self.assembly = assembly;
         if left != 0 || found != cells {
             let problem = format!("{cells} cells with {size} numbers were announced, but they do not add up");
             return Err(ParseError::InvalidSyntax { line, problem });
@@ -190,32 +183,32 @@ impl Reader<'_> {
         vertices: u64,
     ) -> Result<u64, ParseError> {
         check_count("cells", offset_count)?;
-        let line = self.text.line();
-        self.text.word();
-        let id_type = self.integer_type()?;
+        let line = self.data.text.line();
+        self.data.text.word();
+        let id_type = self.data.integer_type()?;
         // One byte or more for each is there, or this fails before the vector grows.
         let mut offsets = Vec::new();
-        self.integers(id_type, offset_count, |value| {
+        self.data.integers(id_type, offset_count, |value| {
             offsets.push(value);
             Ok(())
         })?;
-        if !self.text.word().is_some_and(|word| word.eq_ignore_ascii_case(b"CONNECTIVITY")) {
-            return Err(self.text.syntax("CONNECTIVITY should follow OFFSETS"));
+        if !self.data.text.word().is_some_and(|word| word.eq_ignore_ascii_case(b"CONNECTIVITY")) {
+            return Err(self.data.text.syntax("CONNECTIVITY should follow OFFSETS"));
         }
-        let id_type = self.integer_type()?;
+        let id_type = self.data.integer_type()?;
         let rising = offsets.windows(2).all(|pair| pair[0] <= pair[1]);
         let ends = (offsets.first().copied().unwrap_or(0), offsets.last().copied().unwrap_or(0));
         if !rising || ends != (0, i64::try_from(corners).unwrap_or(i64::MAX)) {
             let problem = format!("the offsets should rise from 0 to {corners}");
             return Err(ParseError::InvalidSyntax { line, problem });
         }
-        let mut assembly = core::mem::take(&mut self.assembly);
+        let assembly = &mut self.assembly;
         let mut ends = offsets.iter().skip(1).peekable();
         let mut read = 0;
-        self.integers(id_type, corners, |value| {
+        self.data.integers(id_type, corners, |value| {
             // Cells without corners end where they start.
             while ends.next_if(|&&end| end <= read).is_some() {
-                close(&mut assembly, kind);
+                close(assembly, kind);
             }
             if kind.is_some() {
                 assembly.corner(value, vertices)?;
@@ -224,15 +217,14 @@ impl Reader<'_> {
             Ok(())
         })?;
         for _ in ends {
-            close(&mut assembly, kind);
+            close(assembly, kind);
         }
-        self.assembly = assembly;
         Ok(offset_count.saturating_sub(1))
     }
 
     /// Reads an attribute of the points, or passes over one of the cells.
     fn attribute(&mut self, keyword: &[u8]) -> Result<(), ParseError> {
-        let unknown = || self.text.syntax(format!("unknown keyword `{}`", excerpt(keyword)));
+        let unknown = || self.data.text.syntax(format!("unknown keyword `{}`", excerpt(keyword)));
         let count = match self.owner {
             Owner::Points(count) | Owner::Cells(count) => count,
             Owner::File if keyword == b"LOOKUP_TABLE" => 0,
@@ -254,42 +246,42 @@ impl Reader<'_> {
         ) {
             return Err(unknown());
         }
-        let name = decode_name(self.text.name_in_row("the name")?);
+        let name = decode_name(self.data.text.name_in_row("the name")?);
         match keyword {
             b"COLOR_SCALARS" => {
-                let components = self.text.count_in_row("the number of colour components")?;
+                let components = self.data.text.count_in_row("the number of colour components")?;
                 self.skip_colours(&format!("colours `{name}`"), count.saturating_mul(components))
             }
             b"LOOKUP_TABLE" => {
-                let size = self.text.count_in_row("the size of the table")?;
+                let size = self.data.text.count_in_row("the size of the table")?;
                 self.skip_colours(&format!("lookup table `{name}`"), size.saturating_mul(4))
             }
             b"GLOBAL_IDS" | b"PEDIGREE_IDS" | b"EDGE_FLAGS" => {
-                let kind = self.array_type()?;
-                self.skip_array(kind, count)?;
+                let kind = self.data.array_type()?;
+                self.data.skip(kind, count)?;
                 self.assembly.skipped(format!("ids or flags `{name}`"), count);
                 Ok(())
             }
             b"TEXTURE_COORDINATES" => {
-                let components = self.text.count_in_row("the number of texture coordinates")?;
-                let kind = self.array_type()?;
+                let components = self.data.text.count_in_row("the number of texture coordinates")?;
+                let kind = self.data.array_type()?;
                 self.read_array(&name, kind, components, count)
             }
             b"SCALARS" => {
-                let kind = self.array_type()?;
-                let components = match self.text.word_in_row() {
-                    Some(word) => parse_count(word).ok_or_else(|| self.text.invalid_number(word))?,
+                let kind = self.data.array_type()?;
+                let components = match self.data.text.word_in_row() {
+                    Some(word) => parse_count(word).ok_or_else(|| self.data.text.invalid_number(word))?,
                     None => 1,
                 };
                 // The name of a table that colours the values; some writers leave it out.
-                if self.text.peek_word().is_some_and(|word| word.eq_ignore_ascii_case(b"LOOKUP_TABLE")) {
-                    self.text.word();
-                    self.text.word_in_row();
+                if self.data.text.peek_word().is_some_and(|word| word.eq_ignore_ascii_case(b"LOOKUP_TABLE")) {
+                    self.data.text.word();
+                    self.data.text.word_in_row();
                 }
                 self.read_array(&name, kind, components, count)
             }
             _ => {
-                let kind = self.array_type()?;
+                let kind = self.data.array_type()?;
                 let components = match keyword {
                     b"TENSORS" => 9,
                     b"TENSORS6" => 6,
@@ -302,18 +294,18 @@ impl Reader<'_> {
 
     /// `FIELD name n` and n arrays: fields where they belong to the points.
     fn read_field_data(&mut self) -> Result<(), ParseError> {
-        self.text.name_in_row("the name")?;
-        let arrays = self.text.count_in_row("the number of arrays")?;
+        self.data.text.name_in_row("the name")?;
+        let arrays = self.data.text.count_in_row("the number of arrays")?;
         for _ in 0..arrays {
-            let mut name = self.text.word().ok_or_else(|| self.text.unexpected_end("an array"))?;
+            let mut name = self.data.text.word().ok_or_else(|| self.data.text.unexpected_end("an array"))?;
             while name.eq_ignore_ascii_case(b"METADATA") {
                 self.section(b"METADATA")?;
-                name = self.text.word().ok_or_else(|| self.text.unexpected_end("an array"))?;
+                name = self.data.text.word().ok_or_else(|| self.data.text.unexpected_end("an array"))?;
             }
             let name = decode_name(name);
-            let components = self.text.count_in_row("the number of components")?;
-            let tuples = self.text.count_in_row("the number of tuples")?;
-            let kind = self.array_type()?;
+            let components = self.data.text.count_in_row("the number of components")?;
+            let tuples = self.data.text.count_in_row("the number of tuples")?;
+            let kind = self.data.array_type()?;
             if let Owner::Points(count) = self.owner
                 && components > 0
             {
@@ -328,7 +320,7 @@ impl Reader<'_> {
     fn read_array(&mut self, name: &str, kind: ArrayType, components: u64, tuples: u64) -> Result<(), ParseError> {
         let size = components.saturating_mul(tuples);
         if !matches!(self.owner, Owner::Points(_)) || kind == ArrayType::Text || size == 0 {
-            self.skip_array(kind, size)?;
+            self.data.skip(kind, size)?;
             let of = match self.owner {
                 Owner::File => "of the file",
                 Owner::Points(_) => "of the points",
@@ -339,19 +331,17 @@ impl Reader<'_> {
             }
             return Ok(());
         }
+        let block = self.data.block(kind, size)?;
+        // There are no more components and tuples than numbers, and those are there.
         let mut columns: Vec<Vec<f64>> = Vec::new();
+        reserve(&mut columns, components as usize)?;
+        for _ in 0..components {
+            let mut column = Vec::new();
+            reserve(&mut column, tuples as usize)?;
+            columns.push(column);
+        }
         let mut place = 0;
-        let set_aside = |columns: &mut Vec<Vec<f64>>, _| {
-            // No more than the numbers that are there.
-            reserve(columns, components as usize)?;
-            for _ in 0..components {
-                let mut column = Vec::new();
-                reserve(&mut column, tuples as usize)?;
-                columns.push(column);
-            }
-            Ok(())
-        };
-        self.numbers(kind, size, &mut columns, set_aside, |columns, value| {
+        self.data.numbers(&block, |value| {
             columns[place].push(value);
             place = if place + 1 == columns.len() { 0 } else { place + 1 };
         })?;
@@ -369,123 +359,9 @@ impl Reader<'_> {
 
     /// Colours are fractions in text and bytes in binary files.
     fn skip_colours(&mut self, what: &str, count: u64) -> Result<(), ParseError> {
-        self.skip_array(ArrayType::Number(NumberType::U8), count)?;
+        self.data.skip(ArrayType::Number(NumberType::U8), count)?;
         self.assembly.skipped(what, count);
         Ok(())
-    }
-
-    fn array_type(&mut self) -> Result<ArrayType, ParseError> {
-        let word = self.text.name_in_row("the type")?;
-        Ok(match word.to_ascii_lowercase().as_slice() {
-            b"bit" => ArrayType::Bit,
-            b"string" | b"utf8_string" => ArrayType::Text,
-            name => ArrayType::Number(
-                number_type(name).ok_or_else(|| self.text.syntax(format!("unknown type `{}`", excerpt(word))))?,
-            ),
-        })
-    }
-
-    fn integer_type(&mut self) -> Result<NumberType, ParseError> {
-        match self.array_type()? {
-            ArrayType::Number(kind) if !matches!(kind, NumberType::F32 | NumberType::F64) => Ok(kind),
-            _ => Err(self.text.syntax("ids must be integers")),
-        }
-    }
-
-    /// Reads `count` numbers; `set_aside` makes room once their bytes are known to be there.
-    fn numbers<T>(
-        &mut self,
-        kind: ArrayType,
-        count: u64,
-        target: &mut T,
-        set_aside: impl FnOnce(&mut T, usize) -> Result<(), ParseError>,
-        mut visit: impl FnMut(&mut T, f64),
-    ) -> Result<(), ParseError> {
-        if !self.binary {
-            self.text.require_numbers(count)?;
-            set_aside(target, count as usize)?;
-            for _ in 0..count {
-                let value = self.text.number("a number")?;
-                visit(target, value);
-            }
-            return Ok(());
-        }
-        self.text.start_of_binary();
-        let data = self.text.rest();
-        let used = match kind {
-            ArrayType::Number(kind) => {
-                require(count.saturating_mul(kind.size()), data.len())?;
-                set_aside(target, count as usize)?;
-                let mut cursor = Cursor::new(data, true);
-                for _ in 0..count {
-                    visit(target, cursor.number(kind)?);
-                }
-                cursor.position()
-            }
-            ArrayType::Bit => {
-                let bytes = count.div_ceil(8);
-                require(bytes, data.len())?;
-                set_aside(target, count as usize)?;
-                for place in 0..count as usize {
-                    visit(target, f64::from(data[place / 8] >> (7 - place % 8) & 1));
-                }
-                bytes as usize
-            }
-            ArrayType::Text => return Err(self.text.syntax("text stands where numbers should")),
-        };
-        self.text.advance(used);
-        Ok(())
-    }
-
-    fn integers(
-        &mut self,
-        kind: NumberType,
-        count: u64,
-        mut visit: impl FnMut(i64) -> Result<(), ParseError>,
-    ) -> Result<(), ParseError> {
-        if !self.binary {
-            self.text.require_numbers(count)?;
-            for _ in 0..count {
-                visit(self.text.integer("an id")?)?;
-            }
-            return Ok(());
-        }
-        self.text.start_of_binary();
-        let data = self.text.rest();
-        require(count.saturating_mul(kind.size()), data.len())?;
-        let mut cursor = Cursor::new(data, true);
-        for _ in 0..count {
-            visit(cursor.integer(kind)?)?;
-        }
-        self.text.advance(cursor.position());
-        Ok(())
-    }
-
-    fn skip_array(&mut self, kind: ArrayType, count: u64) -> Result<(), ParseError> {
-        match (kind, self.binary) {
-            (ArrayType::Text, false) => {
-                self.text.rest_of_line();
-                // Every string has its line, even an empty one.
-                for _ in 0..count {
-                    if self.text.rest().is_empty() {
-                        return Err(self.text.unexpected_end("a string"));
-                    }
-                    self.text.rest_of_line();
-                }
-                Ok(())
-            }
-            (ArrayType::Text, true) => {
-                self.text.start_of_binary();
-                let mut cursor = Cursor::new(self.text.rest(), true);
-                require(count, cursor.available())?;
-                for _ in 0..count {
-                    skip_string(&mut cursor)?;
-                }
-                self.text.advance(cursor.position());
-                Ok(())
-            }
-            _ => self.numbers(kind, count, &mut (), |_, _| Ok(()), |_, _| {}),
-        }
     }
 }
 
@@ -495,40 +371,6 @@ fn close(assembly: &mut Assembly, kind: Option<Cells>) {
         Some(Cells::Strips) => assembly.close_strip(),
         None => {}
     }
-}
-
-/// A string starts with its length; the two highest bits say how many bytes the length itself takes.
-fn skip_string(cursor: &mut Cursor<'_>) -> Result<(), ParseError> {
-    let first = cursor.integer(NumberType::U8)? as u64;
-    let mut length = first & 0x3f;
-    let more = match first >> 6 {
-        3 => 0,
-        2 => 1,
-        1 => 3,
-        _ => 7,
-    };
-    for _ in 0..more {
-        length = length << 8 | cursor.integer(NumberType::U8)? as u64;
-    }
-    cursor.skip(length)
-}
-
-/// Sizes in binary files; `vtkIdType` is written as `int`, and `long` has the eight bytes of every 64-bit system but
-/// Windows.
-fn number_type(name: &[u8]) -> Option<NumberType> {
-    Some(match name {
-        b"char" | b"signed_char" | b"vtktypeint8" => NumberType::I8,
-        b"unsigned_char" | b"vtktypeuint8" => NumberType::U8,
-        b"short" | b"vtktypeint16" => NumberType::I16,
-        b"unsigned_short" | b"vtktypeuint16" => NumberType::U16,
-        b"int" | b"vtkidtype" | b"vtktypeint32" => NumberType::I32,
-        b"unsigned_int" | b"vtktypeuint32" => NumberType::U32,
-        b"long" | b"long_long" | b"vtktypeint64" | b"__int64" => NumberType::I64,
-        b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64" | b"unsigned___int64" => NumberType::U64,
-        b"float" | b"vtktypefloat32" => NumberType::F32,
-        b"double" | b"vtktypefloat64" => NumberType::F64,
-        _ => return None,
-    })
 }
 
 /// Undoes `%20` and the like.
