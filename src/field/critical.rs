@@ -55,7 +55,6 @@ pub struct CriticalPoints {
 
 /// What δ is measured in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum DeltaScale {
     /// A fraction of the largest |f_i − f_j| over the edges (\[Patane09, section 3\]). The default.
     #[default]
@@ -66,7 +65,6 @@ pub enum DeltaScale {
 
 /// How saddles are found where link vertices lie within δ of the vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum LinkReading {
     /// As printed in the paper: with c link edges whose ends lie beyond δ on opposite sides, a saddle has c ≥ 4 and
     /// multiplicity ⌊c/2⌋ − 1. The default.
@@ -78,7 +76,6 @@ pub enum LinkReading {
 
 /// When a vertex is an extremum at δ > 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum ExtremumRule {
     /// Every link vertex lies beyond δ on the same side. The default.
     #[default]

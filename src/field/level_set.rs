@@ -87,9 +87,7 @@ struct Crossings {
 impl Crossings {
     /// Every triangle finds its levels by bisection, so that many levels cost no more than their points.
     fn new(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Self {
-        let mut order: Vec<usize> = (0..levels.len()).collect();
-        order.sort_by(|&a, &b| levels[a].total_cmp(&levels[b]).then(a.cmp(&b)));
-        let sorted: Vec<f64> = order.iter().map(|&place| levels[place]).collect();
+        let (sorted, order) = sort(levels);
         let cut = |corners: &[u32; 3]| {
             let [x, y, z] = corners.map(|v| values[v as usize]);
             // Cut by min < level ≤ max: one corner is below and one is not.
@@ -119,6 +117,27 @@ impl Crossings {
     fn triangles(&self, place: usize) -> &[u32] {
         &self.triangles[self.offsets[place]..self.offsets[place + 1]]
     }
+}
+
+/// The levels in ascending order, and the place in the input of each.
+fn sort(levels: &[f64]) -> (Vec<f64>, Vec<usize>) {
+    // The bits of a double, turned so that they ascend as integers.
+    let key = |level: f64| {
+        let bits = (level + 0.0).to_bits();
+        if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
+    };
+    let mut keys: Vec<u64> = levels.iter().map(|&level| key(level)).collect();
+    keys.sort_unstable();
+    let (mut sorted, mut order) = (vec![0.0; levels.len()], vec![0; levels.len()]);
+    let mut taken = vec![0; levels.len()];
+    for (place, &level) in levels.iter().enumerate() {
+        let first = keys.partition_point(|&other| other < key(level));
+        let rank = first + taken[first];
+        taken[first] += 1;
+        sorted[rank] = level;
+        order[rank] = place;
+    }
+    (sorted, order)
 }
 
 struct Walk<'a> {

@@ -1,5 +1,7 @@
 //! Reads bytes as text: rows, words and numbers, whatever the line ends (LF, CRLF, CR), without copying.
 
+use lexical_parse_float::FromLexical;
+
 use crate::error::ParseError;
 
 /// Longest piece of the input that an error message repeats.
@@ -224,11 +226,11 @@ pub(super) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
 
 /// A number in double precision; `nan` and `inf` as they are.
 pub(super) fn parse_number(word: &[u8]) -> Option<f64> {
-    let text = core::str::from_utf8(word).ok()?;
-    text.parse().ok().or_else(|| {
+    f64::from_lexical(word).ok().or_else(|| {
         // C libraries may write the kind of NaN with it: `nan(ind)`, `-nan(0x1)`.
-        let kind = text.trim_start_matches(['+', '-']).strip_prefix("nan(")?.strip_suffix(')')?;
-        kind.bytes().all(|byte| byte.is_ascii_alphanumeric()).then_some(f64::NAN)
+        let unsigned = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
+        let kind = unsigned.strip_prefix(b"nan(")?.strip_suffix(b")")?;
+        kind.iter().all(u8::is_ascii_alphanumeric).then_some(f64::NAN)
     })
 }
 

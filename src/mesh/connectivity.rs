@@ -54,7 +54,9 @@ impl Connectivity {
     /// Collects the half-edges of every vertex that lead to a larger id, sorted by that id, so that edges come out in
     /// lexicographic order without a global sort.
     fn build_edges(&mut self, n: usize) {
-        let mut half_edges: Vec<(u32, u32)> = Vec::new();
+        // The id at the other end above, the half-edge below: one integer sorts faster than a pair.
+        let mut half_edges: Vec<u64> = Vec::new();
+        let packed = |end: u32, half_edge: u32| u64::from(end) << 32 | u64::from(half_edge);
         for v in 0..n as u32 {
             half_edges.clear();
             for &t in star_of(&self.star_offsets, &self.stars, v) {
@@ -62,17 +64,18 @@ impl Connectivity {
                 let c = corner_of(corners, v);
                 let (next, previous) = (corners[(c + 1) % 3], corners[(c + 2) % 3]);
                 if next > v {
-                    half_edges.push((next, 3 * t + c as u32));
+                    half_edges.push(packed(next, 3 * t + c as u32));
                 }
                 if previous > v {
-                    half_edges.push((previous, 3 * t + ((c + 2) % 3) as u32));
+                    half_edges.push(packed(previous, 3 * t + ((c + 2) % 3) as u32));
                 }
             }
             half_edges.sort_unstable();
-            for group in half_edges.chunk_by(|a, b| a.0 == b.0) {
+            for group in half_edges.chunk_by(|a, b| a >> 32 == b >> 32) {
                 let edge = self.edges.len() as u32;
-                self.edges.push([v, group[0].0]);
-                for &(_, half_edge) in group {
+                self.edges.push([v, (group[0] >> 32) as u32]);
+                for &packed in group {
+                    let half_edge = packed as u32;
                     self.triangle_edges[(half_edge / 3) as usize][(half_edge % 3) as usize] = edge;
                     self.edge_triangles.push(half_edge / 3);
                 }

@@ -104,18 +104,30 @@ fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
         *place += 1;
     }
     let mut found = Vec::new();
-    let mut keys: Vec<(u64, u32)> = Vec::new();
+    let mut keys: Vec<u64> = Vec::new();
     for v in 0..n {
-        keys.clear();
-        for &id in &bucketed[offsets[v] as usize..offsets[v + 1] as usize] {
+        let bucket = &bucketed[offsets[v] as usize..offsets[v + 1] as usize];
+        let key = |id: u32| {
             let t = triangles[id as usize];
             let largest = t[0].max(t[1]).max(t[2]);
             // Wrapping sums recover the middle id without branches.
             let middle = t[0].wrapping_add(t[1]).wrapping_add(t[2]).wrapping_sub(v as u32).wrapping_sub(largest);
-            keys.push(((u64::from(middle) << 32) | u64::from(largest), id));
-        }
+            (u64::from(middle) << 32) | u64::from(largest)
+        };
+        keys.clear();
+        keys.extend(bucket.iter().map(|&id| key(id)));
         keys.sort_unstable();
-        found.extend(keys.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1));
+        if keys.windows(2).any(|pair| pair[0] == pair[1]) {
+            // Rare, so a second look tells which triangles they are: all but the first of every key.
+            keys.dedup();
+            let mut seen = vec![false; keys.len()];
+            for &id in bucket {
+                let place = keys.partition_point(|&other| other < key(id));
+                if core::mem::replace(&mut seen[place], true) {
+                    found.push(id);
+                }
+            }
+        }
     }
     found.sort_unstable();
     found

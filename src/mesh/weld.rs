@@ -57,16 +57,21 @@ pub fn weld(positions: &[f64], triangles: &[u32]) -> Result<Welded, MeshError> {
         let i = 3 * v as usize;
         [positions[i] + 0.0, positions[i + 1] + 0.0, positions[i + 2] + 0.0]
     };
-    let mut order: Vec<u32> = (0..n as u32).collect();
-    order.sort_unstable_by(|&a, &b| {
-        let (p, q) = (at(a), at(b));
-        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(p[2].total_cmp(&q[2])).then(a.cmp(&b))
-    });
-    // The first of a group of equal positions has the smallest id, because ids break ties in the sort.
+    // Half a hash of the position above, the id below: equal positions come to lie side by side, by ascending id.
+    let mut order: Vec<u64> = (0..n as u32).map(|v| (hash(at(v)) >> 32) << 32 | u64::from(v)).collect();
+    order.sort_unstable();
     let mut first = vec![0_u32; n];
-    for group in order.chunk_by(|&a, &b| at(a) == at(b)) {
-        for &v in group {
-            first[v as usize] = group[0];
+    let mut distinct: Vec<u32> = Vec::new();
+    for group in order.chunk_by(|a, b| a >> 32 == b >> 32) {
+        distinct.clear();
+        for &packed in group {
+            let v = packed as u32;
+            // More than one round only where different positions share a hash.
+            let known = distinct.iter().copied().find(|&other| at(other) == at(v));
+            first[v as usize] = known.unwrap_or_else(|| {
+                distinct.push(v);
+                v
+            });
         }
     }
     let mut new_ids = vec![0_u32; n];
@@ -81,4 +86,14 @@ pub fn weld(positions: &[f64], triangles: &[u32]) -> Result<Welded, MeshError> {
     }
     let triangles = triangles.iter().map(|&v| new_ids[v as usize]).collect();
     Ok(Welded { positions: kept, triangles, new_ids })
+}
+
+/// Mixes the bits of three coordinates (the finisher of `MurmurHash3`, once for each).
+fn hash(position: [f64; 3]) -> u64 {
+    position.iter().fold(0, |hash: u64, x| {
+        let mut mixed = hash.rotate_left(23) ^ x.to_bits();
+        mixed = (mixed ^ (mixed >> 33)).wrapping_mul(0xFF51_AFD7_ED55_8CCD);
+        mixed = (mixed ^ (mixed >> 33)).wrapping_mul(0xC4CE_B9FE_1A85_EC53);
+        mixed ^ (mixed >> 33)
+    })
 }

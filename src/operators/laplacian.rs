@@ -12,7 +12,6 @@ const CANCELLED: f64 = 1e-12;
 /// The weights w_ij of a Laplacian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum LaplacianWeights {
     /// (cot α + cot β)/2; symmetric. The default.
     #[default]

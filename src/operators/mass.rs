@@ -8,7 +8,6 @@ use crate::mesh::TriMesh;
 
 /// What a mass matrix is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum MassScale {
     /// Times n/area, n the number of vertices with a triangle: mean vertex area 1, so that ε has the same meaning with
     /// and without the matrix and does not depend on units. The default.

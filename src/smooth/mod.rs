@@ -16,7 +16,6 @@ use system::TikhonovSystem;
 
 /// Which solver a [`Smoother`] uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum SolverChoice {
     /// The fastest route that is exact for the system at hand; today always Cholesky. The default.
     #[default]
@@ -24,7 +23,6 @@ pub enum SolverChoice {
     /// Sparse Cholesky with iterative refinement.
     Cholesky,
     /// Conjugate gradients on the system in factored form: little memory, many iterations for small ε.
-    #[cfg_attr(feature = "serde", serde(rename = "cg"))]
     ConjugateGradient,
 }
 

@@ -9,7 +9,6 @@ use crate::operators::MassScale;
 
 /// The matrix B that measures ‖x − f‖.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "camelCase"))]
 pub enum Metric {
     /// B = I: eq. (3).
     Identity,

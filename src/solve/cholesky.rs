@@ -174,7 +174,8 @@ fn permute(pattern: &SparsityPattern, permutation: &Permutation) -> (SparsityPat
     let mut offsets = Vec::with_capacity(n + 1);
     let mut rows = Vec::with_capacity(pattern.nnz());
     let mut sources = Vec::with_capacity(pattern.nnz());
-    let mut column: Vec<(usize, usize)> = Vec::new();
+    // The new row above, the place in the old column below: columns are shorter than 2³² entries.
+    let mut column: Vec<u64> = Vec::new();
     offsets.push(0);
     for &old in permutation.new_to_old() {
         let start = pattern.major_offsets()[old as usize];
@@ -184,11 +185,11 @@ fn permute(pattern: &SparsityPattern, permutation: &Permutation) -> (SparsityPat
                 .lane(old as usize)
                 .iter()
                 .enumerate()
-                .map(|(k, &row)| (permutation.old_to_new()[row] as usize, start + k)),
+                .map(|(k, &row)| u64::from(permutation.old_to_new()[row]) << 32 | k as u64),
         );
         column.sort_unstable();
-        rows.extend(column.iter().map(|&(row, _)| row));
-        sources.extend(column.iter().map(|&(_, source)| source));
+        rows.extend(column.iter().map(|&packed| (packed >> 32) as usize));
+        sources.extend(column.iter().map(|&packed| start + packed as u32 as usize));
         offsets.push(rows.len());
     }
     // A permutation keeps rows distinct and in range, so the data is valid by construction.

@@ -141,7 +141,7 @@ impl QuotientGraph {
         let mut clique = self.take_clique(p);
         self.count_outside(&clique);
         let clique_weight: u32 = clique.iter().map(|&v| self.weight[v as usize]).sum();
-        let mut hashes: Vec<(u64, u32)> = Vec::with_capacity(clique.len());
+        let mut hashes: Vec<u64> = Vec::with_capacity(clique.len());
         for &v in &clique {
             self.update(v, pivot, clique_weight, &mut hashes);
         }
@@ -193,10 +193,10 @@ impl QuotientGraph {
     }
 
     /// Cleans the lists of a variable of the clique, estimates its degree, and notes its hash.
-    fn update(&mut self, v: u32, pivot: u32, clique_weight: u32, hashes: &mut Vec<(u64, u32)>) {
+    fn update(&mut self, v: u32, pivot: u32, clique_weight: u32, hashes: &mut Vec<u64>) {
         let i = v as usize;
         let mut degree = 0_u32;
-        let mut hash = u64::from(pivot);
+        let mut hash = pivot;
         let mut elements = core::mem::take(&mut self.elements[i]);
         elements.retain(|&e| {
             let e = e as usize;
@@ -204,7 +204,7 @@ impl QuotientGraph {
             let alive = self.clique_weight[e] > 0 && self.outside[e] > 0;
             if alive {
                 degree = degree.saturating_add(self.outside[e]);
-                hash = hash.wrapping_add(e as u64);
+                hash = hash.wrapping_add(e as u32);
             } else {
                 self.clique_weight[e] = 0;
             }
@@ -217,7 +217,7 @@ impl QuotientGraph {
             let outside = self.weight[u as usize] > 0 && !self.in_clique[u as usize];
             if outside {
                 degree = degree.saturating_add(self.weight[u as usize]);
-                hash = hash.wrapping_add(u64::from(u));
+                hash = hash.wrapping_add(u);
             }
             outside
         });
@@ -227,22 +227,23 @@ impl QuotientGraph {
         let degree = degree.saturating_add(inside).min(bound).min(self.left - self.weight[i]);
         self.queue.remove(v);
         self.queue.insert(v, degree);
-        hashes.push((hash, v));
+        // The hash above, the variable below.
+        hashes.push(u64::from(hash) << 32 | u64::from(v));
     }
 
     /// Merges variables of the clique with the same neighbours: they stay equal until eliminated.
-    fn merge_indistinguishable(&mut self, mut hashes: Vec<(u64, u32)>) {
+    fn merge_indistinguishable(&mut self, mut hashes: Vec<u64>) {
         hashes.sort_unstable();
-        for group in hashes.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
-            for &(_, v) in group {
+        for group in hashes.chunk_by(|a, b| a >> 32 == b >> 32).filter(|group| group.len() > 1) {
+            for v in group.iter().map(|&packed| packed as u32) {
                 self.variables[v as usize].sort_unstable();
                 self.elements[v as usize].sort_unstable();
             }
-            for (place, &(_, v)) in group.iter().enumerate() {
+            for (place, v) in group.iter().map(|&packed| packed as u32).enumerate() {
                 if self.weight[v as usize] == 0 {
                     continue;
                 }
-                for &(_, u) in &group[place + 1..] {
+                for u in group[place + 1..].iter().map(|&packed| packed as u32) {
                     let (i, j) = (v as usize, u as usize);
                     let same = self.weight[j] > 0
                         && self.variables[i] == self.variables[j]

@@ -6,39 +6,10 @@ use wasm_bindgen::prelude::*;
 use super::convert::{bytes, diagnostics, floats};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
-use super::options::read;
+use super::options::{invalid, is_absent, read};
 use crate::error::OptionError;
 use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::mesh;
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct ReadInput {
-    format: Option<String>,
-    file_name: Option<String>,
-    weld: Option<bool>,
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct FieldInput {
-    format: Option<String>,
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    column: JsValue,
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct WriteInput {
-    format: Option<String>,
-    binary: Option<bool>,
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    fields: JsValue,
-}
-
-fn invalid(option: &str, expected: &str) -> OptionError {
-    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
-}
 
 fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
     let expected = "the name of a mesh format, such as \"ply\"";
@@ -48,7 +19,7 @@ fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
 /// Reads a mesh file into `{ mesh, fields, format, warnings }`.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
-    let input = read::<ReadInput>(options)?;
+    let input = read(options, &[&["format", "fileName", "weld"]])?;
     let options = ReadOptions { format: mesh_format(input.format.as_deref())?, file_name: input.file_name };
     let loaded = mesh::load(&bytes(file)?, &options, input.weld.unwrap_or(false))?;
     let fields = Object::new();
@@ -66,7 +37,7 @@ pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown>
 /// Reads one field.
 #[wasm_bindgen(js_name = readField)]
 pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<Float64Array, Thrown> {
-    let input = read::<FieldInput>(options)?;
+    let input = read(options, &[&["format", "column"]])?;
     let format = input
         .format
         .map(|name| FieldFormat::from_name(&name).ok_or_else(|| invalid("format", "\"txt\", \"csv\" or \"npy\"")))
@@ -76,7 +47,7 @@ pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<Float64Array, 
         (_, Some(number)) if number >= 0.0 && number.fract() == 0.0 && number <= f64::from(u32::MAX) => {
             Some(Column::Number(number as usize))
         }
-        _ if input.column.is_undefined() || input.column.is_null() => None,
+        _ if is_absent(&input.column) => None,
         _ => return Err(invalid("column", "a name or a number from 0").into()),
     };
     let values = io::read_field(&bytes(file)?, &FieldReadOptions { format, column })?;
@@ -86,7 +57,7 @@ pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<Float64Array, 
 /// Writes a mesh; `fields` of the options holds `Float64Array`s by name.
 #[wasm_bindgen(js_name = writeMesh)]
 pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<Uint8Array, Thrown> {
-    let input = read::<WriteInput>(options)?;
+    let input = read(options, &[&["format", "binary", "fields"]])?;
     let Some(format) = mesh_format(input.format.as_deref())? else {
         return Err(invalid("format", "the name of a mesh format, such as \"ply\", and it has no default").into());
     };
@@ -98,7 +69,7 @@ pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<Uint8Array, Th
             let values = entry.get(1).dyn_into::<Float64Array>().map_err(|_| invalid("fields", "arrays of numbers"))?;
             fields.push((name, floats(&values)?));
         }
-    } else if !(input.fields.is_undefined() || input.fields.is_null()) {
+    } else if !is_absent(&input.fields) {
         return Err(invalid("fields", "an object of arrays by name").into());
     }
     let borrowed: Vec<(&str, &[f64])> =

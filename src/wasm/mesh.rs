@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use super::convert::{diagnostics, floats, ids, object, sparse};
 use super::error::{Thrown, set};
-use super::options::{DeltaInput, MassInput, MassKind, MeshInput, WeightsInput, WeightsOption, read};
+use super::options::read;
 use crate::error::OptionError;
 use crate::field::{self, CriticalKind};
 use crate::mesh::{self, TriMesh};
@@ -33,7 +33,7 @@ impl RawTriMesh {
 impl RawTriMesh {
     #[wasm_bindgen(constructor)]
     pub fn new(positions: &Float64Array, triangles: &Uint32Array, options: &JsValue) -> Result<Self, Thrown> {
-        let weld = read::<MeshInput>(options)?.weld.unwrap_or(false);
+        let weld = read(options, &[&["weld"]])?.weld.unwrap_or(false);
         let (positions, triangles) = (floats(positions)?, ids(triangles)?);
         let mesh = if weld {
             let welded = mesh::weld(&positions, &triangles)?;
@@ -82,7 +82,7 @@ impl RawTriMesh {
 
     #[wasm_bindgen(js_name = criticalPoints)]
     pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let options = read::<DeltaInput>(options)?.options();
+        let options = read(options, &[&["delta", "deltaIs", "link", "rule"]])?.delta()?;
         let found = field::critical_points(&self.mesh, &floats(values)?, &options)?;
         let points = &found.points;
         let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
@@ -112,7 +112,7 @@ impl RawTriMesh {
         let levels = match levels.dyn_ref::<Float64Array>() {
             Some(levels) => floats(levels)?,
             None => {
-                let count = read::<LevelCount>(levels)?.count.ok_or_else(|| OptionError::InvalidArgument {
+                let count = read(levels, &[&["count"]])?.count.ok_or_else(|| OptionError::InvalidArgument {
                     argument: "levels".to_owned(),
                     expected: "a list of numbers or { count }".to_owned(),
                 })?;
@@ -132,28 +132,23 @@ impl RawTriMesh {
     }
 
     pub fn smoothness(&self, values: &Float64Array, options: &JsValue) -> Result<JsValue, Thrown> {
-        let weights = WeightsInput::weights(read::<WeightsOption>(options)?.weights)?;
+        let weights = read(options, &[&["weights"]])?.weights()?;
         let laplacian = operators::laplacian(&self.mesh, weights)?;
         Ok(object(&smooth::smoothness(&laplacian, &floats(values)?)?))
     }
 
     pub fn laplacian(&self, options: &JsValue) -> Result<JsValue, Thrown> {
-        let weights = WeightsInput::weights(read::<WeightsOption>(options)?.weights)?;
+        let weights = read(options, &[&["weights"]])?.weights()?;
         Ok(sparse(&operators::laplacian(&self.mesh, weights)?))
     }
 
     pub fn mass(&self, options: &JsValue) -> Result<JsValue, Thrown> {
-        let options = read::<MassInput>(options)?;
-        let scale = options.mass_scale.unwrap_or_default();
-        Ok(sparse(&match options.kind.unwrap_or(MassKind::Galerkin) {
-            MassKind::Galerkin => operators::galerkin_mass(&self.mesh, scale)?,
-            MassKind::Lumped => operators::lumped_mass(&self.mesh, scale)?,
+        let options = read(options, &[&["kind", "massScale"]])?;
+        let scale = options.mass_scale()?;
+        Ok(sparse(&if options.is_lumped()? {
+            operators::lumped_mass(&self.mesh, scale)?
+        } else {
+            operators::galerkin_mass(&self.mesh, scale)?
         }))
     }
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default)]
-struct LevelCount {
-    count: Option<u32>,
 }

@@ -1,7 +1,6 @@
 //! Option objects: read through serde, with unknown and malformed options refused by name.
 
-use js_sys::{Array, Object};
-use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
+use js_sys::{Array, Function, Object};
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::error::set;
@@ -10,28 +9,72 @@ use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, LinkReading};
 use crate::operators::{LaplacianWeights, MassScale};
 use crate::smooth::{Metric, SmootherOptions, SolverChoice, TikhonovOptions};
 
-/// Reads an options object. `undefined` and `null` give the defaults.
-pub(super) fn read<T: DeserializeOwned + Default>(value: &JsValue) -> Result<T, OptionError> {
-    if value.is_undefined() || value.is_null() {
-        return Ok(T::default());
+/// The names that `Smoother` takes.
+pub(super) const SMOOTHER: &[&str] = &["weights", "operator", "solver", "precision", "bounds", "onProgress"];
+/// The names that `Smoother.tikhonov` takes.
+pub(super) const TIKHONOV: &[&str] = &["epsilon", "cutoffWavelength", "metric", "massScale", "channels"];
+/// The names that `smooth` takes besides those of [`SMOOTHER`].
+const SMOOTH: &[&str] = &["method", "metric", "massScale", "epsilon", "constraints", "energy"];
+
+/// All options of all functions: each function names those it takes. One type of few kinds of fields keeps the module small,
+/// because serde writes the code for every type anew.
+#[derive(Default, serde::Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct Options {
+    pub(super) weld: Option<bool>,
+    pub(super) format: Option<String>,
+    pub(super) file_name: Option<String>,
+    pub(super) binary: Option<bool>,
+    pub(super) count: Option<u32>,
+    kind: Option<String>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    pub(super) column: JsValue,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    pub(super) fields: JsValue,
+    delta: Option<f64>,
+    delta_is: Option<String>,
+    link: Option<String>,
+    rule: Option<String>,
+    weights: Option<String>,
+    operator: Option<String>,
+    solver: Option<String>,
+    precision: Option<String>,
+    bounds: Option<bool>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    on_progress: JsValue,
+    method: Option<String>,
+    metric: Option<String>,
+    mass_scale: Option<String>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    epsilon: JsValue,
+    cutoff_wavelength: Option<f64>,
+    channels: Option<u32>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    constraints: JsValue,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    energy: JsValue,
+}
+
+/// Reads an options object that may have the names in `known`. `undefined` and `null` give the defaults.
+pub(super) fn read(value: &JsValue, known: &[&[&str]]) -> Result<Options, OptionError> {
+    if is_absent(value) {
+        return Ok(Options::default());
     }
     if !value.is_object() || Array::is_array(value) || value.is_function() {
         let expected = "an object".to_owned();
         return Err(OptionError::InvalidArgument { argument: "options".to_owned(), expected });
     }
-    let object: &Object = value.unchecked_ref();
-    let known = field_names::<T>();
-    for entry in Object::entries(object).iter() {
+    for entry in Object::entries(value.unchecked_ref()).iter() {
         let entry: Array = entry.unchecked_into();
         let option = entry.get(0).as_string().unwrap_or_default();
-        if !known.contains(&option.as_str()) {
+        if !known.iter().any(|names| names.contains(&option.as_str())) {
             return Err(OptionError::UnknownOption { option });
         }
         // One at a time, because the message of the whole object would not say which option is wrong.
         let single = Object::new();
         set(&single, &option, &entry.get(1));
-        if let Err(problem) = serde_wasm_bindgen::from_value::<T>(single.into()) {
-            return Err(OptionError::InvalidOption { option, expected: expected(&problem.to_string()) });
+        if let Err(problem) = serde_wasm_bindgen::from_value::<Options>(single.into()) {
+            return Err(invalid(&option, expected(&problem.to_string())));
         }
     }
     serde_wasm_bindgen::from_value(value.clone()).map_err(|problem| OptionError::InvalidArgument {
@@ -41,249 +84,132 @@ pub(super) fn read<T: DeserializeOwned + Default>(value: &JsValue) -> Result<T, 
 }
 
 /// From "unknown variant `a`, expected `b` or `c`" and the like the part that helps.
-fn expected(message: &str) -> String {
-    message.rsplit_once("expected ").map_or(message, |(_, expected)| expected).to_owned()
+fn expected(message: &str) -> &str {
+    message.rsplit_once("expected ").map_or(message, |(_, expected)| expected)
 }
 
-/// The names that a struct deserialises from, as serde knows them: one list for both.
-fn field_names<T: DeserializeOwned>() -> &'static [&'static str] {
-    struct Names<'a>(&'a mut &'static [&'static str]);
-    impl<'de> Deserializer<'de> for Names<'_> {
-        type Error = serde::de::value::Error;
-
-        fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Self::Error> {
-            Err(Self::Error::custom("only structs have names"))
-        }
-
-        fn deserialize_struct<V: Visitor<'de>>(
-            self,
-            _: &'static str,
-            fields: &'static [&'static str],
-            _: V,
-        ) -> Result<V::Value, Self::Error> {
-            *self.0 = fields;
-            Err(Self::Error::custom("the names are all that was wanted"))
-        }
-
-        serde::forward_to_deserialize_any! {
-            bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
-            newtype_struct seq tuple tuple_struct map enum identifier ignored_any
-        }
-    }
-    let mut names: &'static [&'static str] = &[];
-    let _ = T::deserialize(Names(&mut names));
-    names
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct MeshInput {
-    pub(super) weld: Option<bool>,
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct DeltaInput {
-    delta: Option<f64>,
-    delta_is: Option<DeltaScale>,
-    link: Option<LinkReading>,
-    rule: Option<ExtremumRule>,
-}
-
-impl DeltaInput {
-    pub(super) fn options(&self) -> DeltaOptions {
-        DeltaOptions {
-            delta: self.delta.unwrap_or_default(),
-            scale: self.delta_is.unwrap_or_default(),
-            link: self.link.unwrap_or_default(),
-            rule: self.rule.unwrap_or_default(),
-        }
-    }
-}
-
-/// Weights by the names of the types, those of later versions included, so that they are refused as such.
-#[derive(Clone, Copy, serde::Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) enum WeightsInput {
-    Cotangent,
-    MeanValue,
-    NormalizedCotangent,
-    Uniform,
-    IntrinsicDelaunay,
-}
-
-impl WeightsInput {
-    pub(super) fn weights(this: Option<Self>) -> Result<LaplacianWeights, OptionError> {
-        Ok(match this {
-            None | Some(Self::Cotangent) => LaplacianWeights::Cotangent,
-            Some(Self::MeanValue) => LaplacianWeights::MeanValue,
-            Some(Self::NormalizedCotangent) => LaplacianWeights::NormalizedCotangent,
-            Some(Self::Uniform) => LaplacianWeights::Uniform,
-            Some(Self::IntrinsicDelaunay) => return Err(unsupported("weights: intrinsicDelaunay")),
-        })
-    }
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct WeightsOption {
-    pub(super) weights: Option<WeightsInput>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) enum MassKind {
-    Galerkin,
-    Lumped,
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct MassInput {
-    pub(super) kind: Option<MassKind>,
-    pub(super) mass_scale: Option<MassScale>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "camelCase")]
-enum Operator {
-    Paper,
-    Fem,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "camelCase")]
-enum Precision {
-    Double,
-    Single,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "camelCase")]
-enum Method {
-    Tikhonov,
-    Interpolate,
-    LeastSquares,
-}
-
-/// Declares an options struct with the smoother's options and others, because serde's `flatten` would hide the names.
-macro_rules! with_smoother_options {
-    ($name:ident { $($(#[$meta:meta])* $field:ident: $ty:ty),* $(,)? }) => {
-        #[derive(Default, serde::Deserialize)]
-        #[serde(default, rename_all = "camelCase")]
-        pub(super) struct $name {
-            weights: Option<WeightsInput>,
-            operator: Option<Operator>,
-            solver: Option<SolverChoice>,
-            precision: Option<Precision>,
-            bounds: Option<bool>,
-            #[serde(with = "serde_wasm_bindgen::preserve")]
-            on_progress: JsValue,
-            $($(#[$meta])* $field: $ty,)*
-        }
-
-        impl $name {
-            pub(super) fn smoother(&self) -> Result<SmootherOptions, OptionError> {
-                if self.operator == Some(Operator::Fem) {
-                    return Err(unsupported("operator: fem"));
-                }
-                if self.precision == Some(Precision::Single) {
-                    return Err(unsupported("precision: single"));
-                }
-                if self.bounds == Some(true) {
-                    return Err(unsupported("bounds: true"));
-                }
-                Ok(SmootherOptions {
-                    weights: WeightsInput::weights(self.weights)?,
-                    solver: self.solver.unwrap_or_default(),
-                })
-            }
-
-            /// The callback, if there is one.
-            pub(super) fn progress(&self) -> Result<Option<js_sys::Function>, OptionError> {
-                if self.on_progress.is_undefined() || self.on_progress.is_null() {
-                    return Ok(None);
-                }
-                self.on_progress.dyn_ref::<js_sys::Function>().cloned().map(Some).ok_or_else(|| {
-                    OptionError::InvalidOption { option: "onProgress".to_owned(), expected: "a function".to_owned() }
-                })
-            }
-        }
-    };
-}
-
-with_smoother_options!(SmootherInput {});
-with_smoother_options!(SmoothInput {
-    method: Option<Method>,
-    metric: Option<Metric>,
-    mass_scale: Option<MassScale>,
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    epsilon: JsValue,
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    constraints: JsValue,
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    energy: JsValue,
-});
-
-impl SmoothInput {
-    pub(super) fn tikhonov(&self) -> Result<TikhonovOptions, OptionError> {
-        if matches!(self.method, Some(Method::Interpolate | Method::LeastSquares)) {
-            return Err(unsupported("method: interpolate | leastSquares"));
-        }
-        for (name, value) in [("constraints", &self.constraints), ("energy", &self.energy)] {
-            if !(value.is_undefined() || value.is_null()) {
-                return Err(unsupported(name));
-            }
-        }
-        let epsilon = match self.epsilon.as_f64() {
-            None if self.epsilon.as_string().as_deref() == Some("auto") => return Err(unsupported("epsilon: auto")),
-            epsilon => epsilon,
-        };
-        tikhonov(epsilon, self.metric, self.mass_scale, None)
-    }
-}
-
-#[derive(Default, serde::Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct TikhonovInput {
-    epsilon: Option<f64>,
-    cutoff_wavelength: Option<f64>,
-    metric: Option<Metric>,
-    mass_scale: Option<MassScale>,
-    channels: Option<u32>,
-}
-
-impl TikhonovInput {
-    pub(super) fn options(&self) -> Result<TikhonovOptions, OptionError> {
-        if self.cutoff_wavelength.is_some() {
-            return Err(unsupported("cutoffWavelength"));
-        }
-        tikhonov(self.epsilon, self.metric, self.mass_scale, self.channels)
-    }
-}
-
-fn tikhonov(
-    epsilon: Option<f64>,
-    metric: Option<Metric>,
-    mass_scale: Option<MassScale>,
-    channels: Option<u32>,
-) -> Result<TikhonovOptions, OptionError> {
-    let Some(epsilon) = epsilon else {
-        let expected = "a positive finite number, and it has no default".to_owned();
-        return Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected });
-    };
-    if metric == Some(Metric::Identity) && mass_scale.is_some() {
-        let reason = "the metric `identity` has no mass matrix".to_owned();
-        return Err(OptionError::InapplicableOption { option: "massScale".to_owned(), reason });
-    }
-    Ok(TikhonovOptions {
-        epsilon,
-        metric: metric.unwrap_or_default(),
-        mass_scale: mass_scale.unwrap_or_default(),
-        channels: channels.map_or(1, |channels| channels as usize),
-    })
+pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
+    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
 }
 
 fn unsupported(option: &str) -> OptionError {
     OptionError::UnsupportedOption { option: option.to_owned() }
+}
+
+pub(super) fn is_absent(value: &JsValue) -> bool {
+    value.is_undefined() || value.is_null()
+}
+
+/// The value of an option that takes one of several names; the first is the default.
+fn choose<T: Copy>(option: &str, name: Option<&String>, choices: &[(&str, T)]) -> Result<T, OptionError> {
+    let wanted = name.map_or(choices[0].0, String::as_str);
+    let found = choices.iter().find(|(name, _)| *name == wanted);
+    found.map(|&(_, choice)| choice).ok_or_else(|| {
+        let names: Vec<&str> = choices.iter().map(|&(name, _)| name).collect();
+        invalid(option, &format!("one of \"{}\"", names.join("\", \"")))
+    })
+}
+
+/// As [`choose`], with names of later versions, which are refused as such.
+fn choose_supported<T: Copy>(
+    option: &str,
+    name: Option<&String>,
+    choices: &[(&str, Option<T>)],
+) -> Result<T, OptionError> {
+    choose(option, name, choices)?.ok_or_else(|| unsupported(&format!("{option}: {}", name.map_or("", String::as_str))))
+}
+
+impl Options {
+    pub(super) fn delta(&self) -> Result<DeltaOptions, OptionError> {
+        let scales = [("relative", DeltaScale::Relative), ("absolute", DeltaScale::Absolute)];
+        let links = [("consecutive", LinkReading::Consecutive), ("skip", LinkReading::Skip)];
+        let rules = [("strict", ExtremumRule::Strict), ("literal", ExtremumRule::Literal)];
+        Ok(DeltaOptions {
+            delta: self.delta.unwrap_or_default(),
+            scale: choose("deltaIs", self.delta_is.as_ref(), &scales)?,
+            link: choose("link", self.link.as_ref(), &links)?,
+            rule: choose("rule", self.rule.as_ref(), &rules)?,
+        })
+    }
+
+    pub(super) fn weights(&self) -> Result<LaplacianWeights, OptionError> {
+        let choices = [
+            ("cotangent", Some(LaplacianWeights::Cotangent)),
+            ("meanValue", Some(LaplacianWeights::MeanValue)),
+            ("normalizedCotangent", Some(LaplacianWeights::NormalizedCotangent)),
+            ("uniform", Some(LaplacianWeights::Uniform)),
+            ("intrinsicDelaunay", None),
+        ];
+        choose_supported("weights", self.weights.as_ref(), &choices)
+    }
+
+    /// Whether the mass matrix is the lumped one.
+    pub(super) fn is_lumped(&self) -> Result<bool, OptionError> {
+        choose("kind", self.kind.as_ref(), &[("galerkin", false), ("lumped", true)])
+    }
+
+    pub(super) fn mass_scale(&self) -> Result<MassScale, OptionError> {
+        let scales = [("meanOne", MassScale::MeanOne), ("raw", MassScale::Raw)];
+        choose("massScale", self.mass_scale.as_ref(), &scales)
+    }
+
+    pub(super) fn smoother(&self) -> Result<SmootherOptions, OptionError> {
+        choose_supported("operator", self.operator.as_ref(), &[("paper", Some(())), ("fem", None)])?;
+        choose_supported("precision", self.precision.as_ref(), &[("double", Some(())), ("single", None)])?;
+        if self.bounds == Some(true) {
+            return Err(unsupported("bounds: true"));
+        }
+        let solvers = [
+            ("auto", SolverChoice::Auto),
+            ("cholesky", SolverChoice::Cholesky),
+            ("cg", SolverChoice::ConjugateGradient),
+        ];
+        Ok(SmootherOptions { weights: self.weights()?, solver: choose("solver", self.solver.as_ref(), &solvers)? })
+    }
+
+    /// The callback, if there is one.
+    pub(super) fn progress(&self) -> Result<Option<Function>, OptionError> {
+        if is_absent(&self.on_progress) {
+            return Ok(None);
+        }
+        let callback = self.on_progress.dyn_ref::<Function>().cloned();
+        callback.map(Some).ok_or_else(|| invalid("onProgress", "a function"))
+    }
+
+    pub(super) fn tikhonov(&self) -> Result<TikhonovOptions, OptionError> {
+        if self.cutoff_wavelength.is_some() {
+            return Err(unsupported("cutoffWavelength"));
+        }
+        if self.epsilon.as_string().as_deref() == Some("auto") {
+            return Err(unsupported("epsilon: auto"));
+        }
+        let Some(epsilon) = self.epsilon.as_f64() else {
+            return Err(invalid("epsilon", "a positive finite number, and it has no default"));
+        };
+        let metrics = [("mass", Metric::Mass), ("identity", Metric::Identity), ("lumped", Metric::Lumped)];
+        let metric = choose("metric", self.metric.as_ref(), &metrics)?;
+        if metric == Metric::Identity && self.mass_scale.is_some() {
+            let reason = "the metric `identity` has no mass matrix".to_owned();
+            return Err(OptionError::InapplicableOption { option: "massScale".to_owned(), reason });
+        }
+        Ok(TikhonovOptions {
+            epsilon,
+            metric,
+            mass_scale: self.mass_scale()?,
+            channels: self.channels.map_or(1, |channels| channels as usize),
+        })
+    }
+}
+
+/// The options of `smooth`, those of later versions refused as such.
+pub(super) fn read_smooth(value: &JsValue) -> Result<Options, OptionError> {
+    let options = read(value, &[SMOOTHER, SMOOTH])?;
+    let methods = [("tikhonov", Some(())), ("interpolate", None), ("leastSquares", None)];
+    choose_supported("method", options.method.as_ref(), &methods)?;
+    for (name, value) in [("constraints", &options.constraints), ("energy", &options.energy)] {
+        if !is_absent(value) {
+            return Err(unsupported(name));
+        }
+    }
+    Ok(options)
 }

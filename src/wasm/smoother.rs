@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
-use super::options::{SmoothInput, SmootherInput, TikhonovInput, read};
+use super::options::{SMOOTHER, TIKHONOV, read, read_smooth};
 use crate::smooth::{Phase, Smoothed, Smoother};
 
 /// A smoother in wasm memory.
@@ -21,13 +21,13 @@ pub struct RawSmoother {
 impl RawSmoother {
     #[wasm_bindgen(constructor)]
     pub fn new(mesh: &RawTriMesh, options: &JsValue) -> Result<Self, Thrown> {
-        let input = read::<SmootherInput>(options)?;
+        let input = read(options, &[SMOOTHER])?;
         let smoother = Smoother::new(mesh.mesh(), input.smoother()?)?;
         Ok(Self { smoother, on_progress: input.progress()? })
     }
 
     pub fn tikhonov(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let options = read::<TikhonovInput>(options)?.options()?;
+        let options = read(options, &[TIKHONOV])?.tikhonov()?;
         let mut tell = teller(self.on_progress.as_ref());
         Ok(result(&self.smoother.tikhonov_with_progress(&floats(values)?, &options, &mut tell)?))
     }
@@ -36,7 +36,7 @@ impl RawSmoother {
 /// The short way: one smoother, one field.
 #[wasm_bindgen]
 pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-    let input = read::<SmoothInput>(options)?;
+    let input = read_smooth(options)?;
     let tikhonov = input.tikhonov()?;
     let on_progress = input.progress()?;
     let mut smoother = Smoother::new(mesh.mesh(), input.smoother()?)?;
