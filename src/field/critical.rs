@@ -186,7 +186,7 @@ fn classify(
     sign: impl Fn(u32, u32) -> i8 + Copy,
 ) -> CriticalPoints {
     let states = sweep(connectivity, sign);
-    let mut scratch = LinkScratch::default();
+    let mut scratch = LinkScratch::new(connectivity.vertex_count());
     let mut found = CriticalPoints::default();
     let mut index_sum = 0_i64;
     for (vertex, (&state, &link_kind)) in states.iter().zip(connectivity.link_kinds()).enumerate() {

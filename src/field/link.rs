@@ -16,16 +16,35 @@ pub(super) struct SignedLink {
 }
 
 /// Room that is used again for every vertex.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct LinkScratch {
+    /// The vertices of the link.
     nodes: Vec<u32>,
+    /// For every vertex of the mesh its place among the nodes; `NONE` outside of the link.
+    places: Vec<u32>,
+
     edges: Vec<[u32; 2]>,
     signs: Vec<i8>,
     degrees: Vec<u32>,
     parents: Vec<u32>,
+    counted: Vec<bool>,
 }
 
+const NONE: u32 = u32::MAX;
+
 impl LinkScratch {
+    pub(super) fn new(vertices: usize) -> Self {
+        Self {
+            nodes: Vec::new(),
+            places: vec![NONE; vertices],
+            edges: Vec::new(),
+            signs: Vec::new(),
+            degrees: Vec::new(),
+            parents: Vec::new(),
+            counted: Vec::new(),
+        }
+    }
+
     /// Looks at the link of `vertex` with the signs that `sign` gives to its vertices: −1 below, 0 within δ, 1 above.
     pub(super) fn inspect(&mut self, connectivity: &Connectivity, vertex: u32, sign: impl Fn(u32) -> i8) -> SignedLink {
         self.gather(connectivity, vertex);
@@ -41,20 +60,25 @@ impl LinkScratch {
         }
     }
 
-    /// Fills nodes (vertex ids, ascending), edges (places among the nodes) and degrees.
+    /// Fills nodes, edges (places among the nodes) and degrees.
     fn gather(&mut self, connectivity: &Connectivity, vertex: u32) {
+        for &node in &self.nodes {
+            self.places[node as usize] = NONE;
+        }
         self.nodes.clear();
-        self.nodes.extend(connectivity.link(vertex).flatten());
-        self.nodes.sort_unstable();
-        self.nodes.dedup();
         self.degrees.clear();
-        self.degrees.resize(self.nodes.len(), 0);
         self.edges.clear();
         for ends in connectivity.link(vertex) {
-            let places = ends.map(|v| self.nodes.partition_point(|&node| node < v) as u32);
-            for place in places {
+            let places = ends.map(|v| {
+                if self.places[v as usize] == NONE {
+                    self.places[v as usize] = self.nodes.len() as u32;
+                    self.nodes.push(v);
+                    self.degrees.push(0);
+                }
+                let place = self.places[v as usize];
                 self.degrees[place as usize] += 1;
-            }
+                place
+            });
             self.edges.push(places);
         }
     }
@@ -70,15 +94,16 @@ impl LinkScratch {
                 self.parents[a.max(b) as usize] = a.min(b);
             }
         }
-        let mut roots: Vec<u32> = Vec::new();
+        self.counted.clear();
+        self.counted.resize(self.nodes.len(), false);
+        let mut count = 0;
         for v in 0..self.nodes.len() as u32 {
             if self.signs[v as usize] == side {
-                roots.push(self.root(v));
+                let root = self.root(v) as usize;
+                count += u32::from(!core::mem::replace(&mut self.counted[root], true));
             }
         }
-        roots.sort_unstable();
-        roots.dedup();
-        roots.len() as u32
+        count
     }
 
     fn root(&mut self, mut v: u32) -> u32 {

@@ -37,9 +37,13 @@ pub(super) fn check(positions: &[f64], triangles: &[u32]) -> Result<Checked, Mes
             ids.push(t as u32);
         }
     }
-    let duplicates = duplicates(n, &kept);
-    let duplicate_ids: Vec<u32> = duplicates.iter().map(|&t| ids[t as usize]).collect();
-    remove(&mut kept, &duplicates);
+    let is_duplicate = duplicates(n, &kept);
+    let duplicate_ids: Vec<u32> =
+        ids.iter().zip(&is_duplicate).filter(|&(_, &duplicate)| duplicate).map(|(&id, _)| id).collect();
+    if !duplicate_ids.is_empty() {
+        let mut flags = is_duplicate.iter();
+        kept.retain(|_| flags.next() == Some(&false));
+    }
     if n == 0 || kept.is_empty() {
         return Err(MeshError::EmptyMesh { vertices: n, triangles: kept.len() });
     }
@@ -85,8 +89,8 @@ pub(super) fn report(
     }
 }
 
-/// Triangles (ascending) whose set of vertices an earlier triangle has too.
-fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+/// For every triangle whether an earlier one has the same vertices.
+fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<bool> {
     // Bucket by the smallest vertex; buckets are small, so sorting them is nearly linear.
     let smallest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);
     let mut offsets = vec![0_u32; n + 1];
@@ -103,7 +107,7 @@ fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
         bucketed[*place as usize] = id as u32;
         *place += 1;
     }
-    let mut found = Vec::new();
+    let mut found = vec![false; triangles.len()];
     let mut keys: Vec<u64> = Vec::new();
     for v in 0..n {
         let bucket = &bucketed[offsets[v] as usize..offsets[v + 1] as usize];
@@ -124,24 +128,10 @@ fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
             for &id in bucket {
                 let place = keys.partition_point(|&other| other < key(id));
                 if core::mem::replace(&mut seen[place], true) {
-                    found.push(id);
+                    found[id as usize] = true;
                 }
             }
         }
     }
-    found.sort_unstable();
     found
-}
-
-/// Removes the triangles at the given ascending places.
-fn remove(triangles: &mut Vec<[u32; 3]>, places: &[u32]) {
-    let mut places = places.iter().copied().peekable();
-    let mut id = 0_u32;
-    if places.peek().is_some() {
-        triangles.retain(|_| {
-            let gone = places.next_if_eq(&id).is_some();
-            id += 1;
-            !gone
-        });
-    }
 }

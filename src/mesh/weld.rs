@@ -24,16 +24,15 @@ impl Welded {
     #[must_use]
     pub fn field(&self, values: &[f64]) -> (Vec<f64>, Vec<u32>) {
         let mut joined = vec![None; self.positions.len() / 3];
-        let mut disagreeing = Vec::new();
+        let mut disagrees = vec![false; joined.len()];
         for (&new, &value) in self.new_ids.iter().zip(values) {
             match joined[new as usize] {
                 None => joined[new as usize] = Some(value),
-                Some(first) if first != value => disagreeing.push(new),
+                Some(first) if first != value => disagrees[new as usize] = true,
                 Some(_) => {}
             }
         }
-        disagreeing.sort_unstable();
-        disagreeing.dedup();
+        let disagreeing = (0..disagrees.len() as u32).filter(|&new| disagrees[new as usize]).collect();
         (joined.into_iter().flatten().collect(), disagreeing)
     }
 }

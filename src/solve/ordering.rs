@@ -87,6 +87,9 @@ struct QuotientGraph {
     outside: Vec<u32>,
     stamp: Vec<u32>,
     current_stamp: u32,
+    /// Neighbours (variables and elements are numbered alike) of the variable that others are compared with.
+    mark: Vec<u32>,
+    current_mark: u32,
     queue: DegreeQueue,
     pivots: Vec<u32>,
     /// Unknowns that were merged into another: linked lists.
@@ -125,6 +128,8 @@ impl QuotientGraph {
             outside: vec![0; n],
             stamp: vec![0; n],
             current_stamp: 0,
+            mark: vec![0; n],
+            current_mark: 0,
             queue,
             pivots: Vec::new(),
             first_merged: vec![NONE; n],
@@ -231,23 +236,28 @@ impl QuotientGraph {
         hashes.push(u64::from(hash) << 32 | u64::from(v));
     }
 
+    fn is_marked(&self, neighbour: u32) -> bool {
+        self.mark[neighbour as usize] == self.current_mark
+    }
+
     /// Merges variables of the clique with the same neighbours: they stay equal until eliminated.
     fn merge_indistinguishable(&mut self, mut hashes: Vec<u64>) {
         hashes.sort_unstable();
         for group in hashes.chunk_by(|a, b| a >> 32 == b >> 32).filter(|group| group.len() > 1) {
-            for v in group.iter().map(|&packed| packed as u32) {
-                self.variables[v as usize].sort_unstable();
-                self.elements[v as usize].sort_unstable();
-            }
             for (place, v) in group.iter().map(|&packed| packed as u32).enumerate() {
                 if self.weight[v as usize] == 0 {
                     continue;
                 }
+                self.current_mark += 1;
+                for &neighbour in self.variables[v as usize].iter().chain(&self.elements[v as usize]) {
+                    self.mark[neighbour as usize] = self.current_mark;
+                }
                 for u in group[place + 1..].iter().map(|&packed| packed as u32) {
                     let (i, j) = (v as usize, u as usize);
                     let same = self.weight[j] > 0
-                        && self.variables[i] == self.variables[j]
-                        && self.elements[i] == self.elements[j];
+                        && self.variables[i].len() == self.variables[j].len()
+                        && self.elements[i].len() == self.elements[j].len()
+                        && self.variables[j].iter().chain(&self.elements[j]).all(|&x| self.is_marked(x));
                     if same {
                         let degree = self.queue.degree(v).saturating_sub(self.weight[j]);
                         self.weight[i] += self.weight[j];
