@@ -5,6 +5,8 @@ mod critical;
 mod io_malformed;
 mod io_read;
 mod io_write;
+mod level_sets;
 mod mesh;
 mod operators;
+mod solve;
 mod support;
