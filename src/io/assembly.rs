@@ -1,6 +1,6 @@
 //! What the readers share: faces become triangles, fields get unique names, what is left out becomes a warning.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::scan::reserve;
 use super::{MeshData, MeshFormat};
@@ -164,7 +164,7 @@ pub(super) fn check_length(field: &str, expected: u64, actual: u64) -> Result<()
 
 /// Names given so far, each with the number that its next namesake tries first.
 #[derive(Debug, Default)]
-pub(super) struct Names(HashMap<String, u64>);
+pub(super) struct Names(BTreeMap<String, u64>);
 
 impl Names {
     /// `name`, or `name_2`, `name_3`, … when it was there before.
