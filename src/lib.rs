@@ -12,8 +12,10 @@ pub mod mesh;
 pub mod operators;
 pub mod smooth;
 pub mod solve;
+// Public for `tests/bindings.rs` alone; the API for users is in `src/js`.
 #[cfg(feature = "wasm")]
-mod wasm;
+#[doc(hidden)]
+pub mod wasm;
 
 pub use error::{Diagnostic, Error, Result};
 pub use mesh::TriMesh;

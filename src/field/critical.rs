@@ -103,9 +103,9 @@ pub struct DeltaOptions {
 /// # Definition
 /// Link vertices have the δ-sensitive sign of f_j − f_i \[Patane09, section 3\]. At δ = 0 vertices are compared by
 /// (value, id). Let l and u be the numbers of components of the lower and upper link: a minimum has l = 0, a maximum
-/// u = 0, a saddle max(l, u) ≥ 2 with multiplicity max(l, u) − 1. On a link that is a cycle this is the paper's number of
-/// changes of sign. At δ > 0 see [`LinkReading`] and [`ExtremumRule`]; where the link is no cycle, vertices within δ are
-/// dropped first for both readings. Isolated vertices are not critical.
+/// u = 0, a saddle neither, but max(l, u) ≥ 2, with multiplicity max(l, u) − 1. On a link that is a cycle this is the
+/// paper's number of changes of sign. At δ > 0 see [`LinkReading`] and [`ExtremumRule`]; where the link is no cycle,
+/// vertices within δ are dropped first for both readings. Isolated vertices are not critical.
 ///
 /// # Properties
 /// One pass over the triangles. With the strict rule, sets for growing δ are nested. On a constant field every δ > 0
@@ -161,7 +161,8 @@ pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f
 const SAW_BELOW: u32 = 1;
 const SAW_NEUTRAL: u32 = 2;
 const SAW_ABOVE: u32 = 4;
-const SAW_ANY: u32 = SAW_BELOW | SAW_NEUTRAL | SAW_ABOVE;
+const SAW_BOTH: u32 = SAW_BELOW | SAW_ABOVE;
+const SAW_ANY: u32 = SAW_BOTH | SAW_NEUTRAL;
 const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
@@ -219,7 +220,9 @@ fn classify(
             (_, SAW_BELOW) => CriticalKind::Maximum,
             (ExtremumRule::Literal, signs) if signs & SAW_BELOW == 0 => CriticalKind::Minimum,
             (ExtremumRule::Literal, signs) if signs & SAW_ABOVE == 0 => CriticalKind::Maximum,
-            _ if saddle_multiplicity > 0 => CriticalKind::Saddle,
+            // On a link in several pieces one side alone may have several components: that is no saddle, or an extremum
+            // would turn into one where δ reaches its first link vertex.
+            (_, signs) if saddle_multiplicity > 0 && signs & SAW_BOTH == SAW_BOTH => CriticalKind::Saddle,
             _ => continue,
         };
         let multiplicity = match kind {

@@ -15,6 +15,8 @@ use crate::solve::{
 /// that is left is about the square of the relative correction.
 const SMALL_CORRECTION: f64 = 1e-8;
 const MOST_REFINEMENTS: usize = 12;
+/// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
+const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// Everything about a Tikhonov system that outlives one ε.
 #[derive(Debug)]
@@ -96,6 +98,10 @@ impl TikhonovSystem {
         // The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
         let scale = options.epsilon.max(1.0);
         let epsilon = options.epsilon / scale;
+        let heaviest = (0..self.active.len()).map(|i| self.mass().diagonal(i)).fold(0.0, f64::max);
+        if !self.active.is_empty() && epsilon * heaviest < SMALLEST_WEIGHT {
+            return Err(SolveError::NotPositiveDefinite {}.into());
+        }
         let (solutions, route, factor_nonzeros) = match solver {
             _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
             SolverChoice::ConjugateGradient => {

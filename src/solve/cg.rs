@@ -79,7 +79,8 @@ pub fn conjugate_gradient(
     }
 }
 
-/// Plain preconditioned iteration until the recursive residual is below `target`; the number of iterations.
+/// Plain preconditioned iteration until the recursive residual is below `target`; the number of iterations. The residual
+/// is scaled to length 1, so that its squares stay within the range of double precision.
 fn descend(
     apply: &mut impl FnMut(&[f64]) -> Vec<f64>,
     diagonal: &[f64],
@@ -90,6 +91,8 @@ fn descend(
 ) -> Result<usize, SolveError> {
     let precondition = |r: &[f64]| -> Vec<f64> { r.iter().zip(diagonal).map(|(r, d)| r / d).collect() };
     let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+    let scale = norm(residual);
+    residual.iter_mut().for_each(|r| *r /= scale);
     let mut z = precondition(residual);
     let mut direction = z.clone();
     let mut rz = dot(residual, &z);
@@ -101,10 +104,10 @@ fn descend(
         }
         let step = rz / curvature;
         for i in 0..x.len() {
-            x[i] += step * direction[i];
+            x[i] += scale * (step * direction[i]);
             residual[i] -= step * image[i];
         }
-        if norm(residual) <= target {
+        if scale * norm(residual) <= target {
             return Ok(iteration + 1);
         }
         z = precondition(residual);

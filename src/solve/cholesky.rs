@@ -29,6 +29,8 @@ struct Analysis {
     symbolic: CscSymbolicCholesky,
     /// For every entry of the permuted matrix its place among the values of the original one.
     sources: Vec<usize>,
+    /// Where the rows of the original matrix start, to name them in errors; as it is symmetric, so do its columns.
+    offsets: Vec<usize>,
     size: FactorSize,
 }
 
@@ -59,7 +61,8 @@ impl CholeskyAnalysis {
         }
         let (permuted, sources) = permute(pattern, &permutation);
         let symbolic = CscSymbolicCholesky::factor(permuted);
-        Ok(Self { shared: Arc::new(Analysis { permutation, symbolic, sources, size }) })
+        let offsets = pattern.major_offsets().to_vec();
+        Ok(Self { shared: Arc::new(Analysis { permutation, symbolic, sources, offsets, size }) })
     }
 
     /// Number of unknowns.
@@ -89,7 +92,8 @@ impl CholeskyAnalysis {
         if values.len() != self.shared.sources.len() {
             return Err(SolveError::PatternMismatch {});
         }
-        if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+            let row = self.shared.offsets.partition_point(|&start| start <= place) - 1;
             return Err(SolveError::NonFiniteEntry { row });
         }
         Ok(self.shared.sources.iter().map(|&source| values[source]).collect())

@@ -46,10 +46,19 @@ pub fn gram(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
     &matrix.transpose() * matrix
 }
 
-/// ‖x‖₂.
+/// ‖x‖₂, also where the squares leave the range of double precision.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|v| v * v).sum::<f64>().sqrt()
+    let square: f64 = x.iter().map(|v| v * v).sum();
+    // Below this, squares lost digits to underflow.
+    if square.is_finite() && square > f64::MIN_POSITIVE / f64::EPSILON {
+        return square.sqrt();
+    }
+    let largest = x.iter().fold(0.0_f64, |largest, v| if v.abs() > largest { v.abs() } else { largest });
+    if largest == 0.0 || largest == f64::INFINITY {
+        return if square.is_nan() { square } else { largest };
+    }
+    largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt()
 }
 
 /// The rows and columns of a square matrix that `kept` lists, ascending.

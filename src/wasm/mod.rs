@@ -8,6 +8,10 @@ mod mesh;
 mod options;
 mod smoother;
 
+pub use error::Thrown;
+pub use files::{read_field, read_mesh, write_mesh};
+pub use mesh::RawTriMesh;
+pub use smoother::{RawSmoother, smooth};
 use wasm_bindgen::prelude::*;
 
 /// Version of the package.

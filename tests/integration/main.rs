@@ -1,6 +1,19 @@
-//! The integration tests, in one binary.
+//! The integration tests, in one binary. wasm32 runs `tests/bindings.rs` instead.
+#![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stderr, reason = "a test that cannot run says so")]
 
+mod critical;
+mod data;
+mod exact;
+mod extremes;
 mod io_malformed;
 mod io_read;
 mod io_write;
+mod layering;
+mod level_sets;
+mod mesh;
+mod operators;
+mod smooth;
+mod solve;
+mod support;

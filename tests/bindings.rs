@@ -1,0 +1,369 @@
+//! The exported classes and functions, called with JavaScript values: `wasm-pack test --node -- --features wasm`.
+#![cfg(all(target_arch = "wasm32", feature = "wasm"))]
+#![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Array, Uint32Array};
+use morse_smooth::mesh::TriMesh;
+use morse_smooth::mesh::shapes::{self, Random};
+use morse_smooth::operators;
+use morse_smooth::smooth::{Smoother, SmootherOptions, TikhonovOptions};
+use morse_smooth::wasm::{RawSmoother, RawTriMesh, Thrown, read_field, read_mesh, smooth, version, write_mesh};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_test::wasm_bindgen_test;
+
+const NONE: JsValue = JsValue::UNDEFINED;
+
+/// An object from a piece of JavaScript.
+fn js(text: &str) -> JsValue {
+    Function::new_no_args(&format!("return ({text})")).call0(&JsValue::NULL).expect("an expression")
+}
+
+fn get(object: &JsValue, name: &str) -> JsValue {
+    let value = Reflect::get(object, &JsValue::from_str(name)).expect("an object");
+    assert!(!value.is_undefined(), "`{name}` is missing");
+    value
+}
+
+fn floats(object: &JsValue, name: &str) -> Vec<f64> {
+    get(object, name).dyn_into::<Float64Array>().expect("a Float64Array").to_vec()
+}
+
+fn ids(object: &JsValue, name: &str) -> Vec<u32> {
+    get(object, name).dyn_into::<Uint32Array>().expect("a Uint32Array").to_vec()
+}
+
+fn bytes(object: &JsValue, name: &str) -> Vec<u8> {
+    get(object, name).dyn_into::<Uint8Array>().expect("a Uint8Array").to_vec()
+}
+
+fn number(object: &JsValue, name: &str) -> f64 {
+    get(object, name).as_f64().unwrap_or_else(|| panic!("`{name}` is no number"))
+}
+
+/// What was thrown: `{ code, message, detail }`.
+fn thrown<T>(result: Result<T, Thrown>) -> (String, String, JsValue) {
+    let error: JsValue = match result {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error.into(),
+    };
+    let text = |name| get(&error, name).as_string().expect("a text");
+    assert!(!text("message").is_empty());
+    assert!(get(&error, "detail").is_object());
+    (text("code"), text("message"), get(&error, "detail"))
+}
+
+fn torus() -> TriMesh {
+    shapes::torus(12, 9, 0.3).expect("a torus")
+}
+
+fn raw(mesh: &TriMesh) -> RawTriMesh {
+    let positions = Float64Array::from(mesh.positions());
+    let triangles = Uint32Array::from(mesh.connectivity().triangles().as_flattened());
+    RawTriMesh::new(&positions, &triangles, &NONE).ok().expect("a mesh")
+}
+
+fn noise(n: usize) -> Vec<f64> {
+    let mut random = Random::new(5);
+    (0..n).map(|_| random.signed()).collect()
+}
+
+fn array(values: &[f64]) -> Float64Array {
+    Float64Array::from(values)
+}
+
+#[wasm_bindgen_test]
+fn version_is_the_package() {
+    assert_eq!(version(), env!("CARGO_PKG_VERSION"));
+}
+
+#[wasm_bindgen_test]
+fn meshes_go_in_and_come_out_as_copies() {
+    let mesh = torus();
+    let positions = array(mesh.positions());
+    let triangles = Uint32Array::from(mesh.connectivity().triangles().as_flattened());
+    let raw = RawTriMesh::new(&positions, &triangles, &NONE).ok().expect("a mesh");
+    positions.fill(7.0, 0, positions.length());
+    triangles.fill(7, 0, triangles.length());
+    assert_eq!(raw.positions().to_vec(), mesh.positions());
+    assert_eq!(raw.triangles().to_vec(), mesh.connectivity().triangles().as_flattened());
+    raw.positions().fill(7.0, 0, 3);
+    assert_eq!(raw.positions().to_vec(), mesh.positions(), "what comes out is a copy too");
+    assert_eq!((raw.vertex_count(), raw.edge_count(), raw.triangle_count()), (108, 324, 216));
+    assert_eq!(raw.area(), mesh.area());
+    let topology = raw.topology();
+    for (name, value) in [("eulerCharacteristic", 0.0), ("components", 1.0), ("boundaryLoops", 0.0), ("genus", 1.0)] {
+        assert_eq!(number(&topology, name), value, "{name}");
+    }
+    assert_eq!(get(&topology, "closed"), JsValue::TRUE);
+    let klein = crate::raw(&shapes::klein_bottle(7, 6).expect("a bottle"));
+    assert!(get(&klein.topology(), "genus").is_null(), "no genus is null, not undefined");
+    assert_eq!(Array::from(&raw.warnings()).length(), 0);
+}
+
+#[wasm_bindgen_test]
+fn warnings_and_welding() {
+    let soup = array(&[0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 9., 9., 9.]);
+    let triangles = Uint32Array::from(&[0, 1, 2, 3, 4, 5, 6, 6, 0][..]);
+    let apart = RawTriMesh::new(&soup, &triangles, &NONE).ok().expect("a mesh");
+    let warnings = Array::from(&apart.warnings());
+    let codes: Vec<String> = warnings.iter().map(|w| get(&w, "code").as_string().expect("a code")).collect();
+    assert_eq!(codes, ["DegenerateTriangle", "IsolatedVertex"]);
+    assert_eq!(number(&warnings.get(0), "count"), 1.0);
+    assert_eq!(Array::from(&get(&warnings.get(1), "examples")).get(0), JsValue::from_f64(6.0));
+    let welded = RawTriMesh::new(&soup, &triangles, &js("{ weld: true }")).ok().expect("a mesh");
+    assert_eq!((apart.vertex_count(), welded.vertex_count()), (7, 5));
+}
+
+#[wasm_bindgen_test]
+fn critical_points_are_those_of_rust() {
+    use morse_smooth::field::{CriticalKind, DeltaOptions, LinkReading, critical_points};
+    let mesh = torus();
+    let f = noise(mesh.vertex_count());
+    for (text, options) in [
+        ("undefined", DeltaOptions::default()),
+        ("null", DeltaOptions::default()),
+        ("{}", DeltaOptions::default()),
+        (
+            "{ delta: 0.1, link: 'skip' }",
+            DeltaOptions { delta: 0.1, link: LinkReading::Skip, ..DeltaOptions::default() },
+        ),
+        (
+            "{ delta: 0.3, deltaIs: 'absolute', link: 'consecutive', rule: 'literal' }",
+            DeltaOptions {
+                delta: 0.3,
+                scale: morse_smooth::field::DeltaScale::Absolute,
+                link: LinkReading::Consecutive,
+                rule: morse_smooth::field::ExtremumRule::Literal,
+            },
+        ),
+    ] {
+        let found: JsValue = raw(&mesh).critical_points(&array(&f), &js(text)).ok().expect("a field").into();
+        let expected = critical_points(&mesh, &f, &options).expect("a field");
+        let kinds = get(&found, "kinds").dyn_into::<Int8Array>().expect("an Int8Array").to_vec();
+        let sign = |kind| match kind {
+            CriticalKind::Minimum => -1,
+            CriticalKind::Saddle => 0,
+            CriticalKind::Maximum => 1,
+        };
+        assert_eq!(ids(&found, "vertices"), expected.points.iter().map(|p| p.vertex).collect::<Vec<_>>());
+        assert_eq!(kinds, expected.points.iter().map(|p| sign(p.kind)).collect::<Vec<_>>());
+        assert_eq!(ids(&found, "multiplicities"), expected.points.iter().map(|p| p.multiplicity).collect::<Vec<_>>());
+        assert_eq!(bytes(&found, "onBoundary").len(), kinds.len());
+        let counts = get(&found, "counts");
+        let of = |name| number(&counts, name) as u32;
+        assert_eq!((of("minima"), of("maxima"), of("saddles")), {
+            let c = expected.counts;
+            (c.minima, c.maxima, c.saddles)
+        });
+        assert_eq!(get(&counts, "indexSum").as_f64(), expected.counts.index_sum.map(|sum| sum as f64));
+    }
+}
+
+#[wasm_bindgen_test]
+fn level_sets_by_list_and_by_number() {
+    let mesh = raw(&shapes::grid(5, 5).expect("a grid"));
+    let f: Vec<f64> = mesh.positions().to_vec().chunks_exact(3).map(|p| p[0]).collect();
+    let listed: JsValue = mesh.level_sets(&array(&f), &array(&[0.25, 0.5, 0.75]).into()).ok().expect("lines").into();
+    let counted: JsValue = mesh.level_sets(&array(&f), &js("{ count: 3 }")).ok().expect("lines").into();
+    for sets in [&listed, &counted] {
+        assert_eq!(floats(sets, "levels"), [0.25, 0.5, 0.75]);
+        assert_eq!(bytes(sets, "closed"), [0, 0, 0]);
+        let points = *ids(sets, "offsets").last().expect("offsets") as usize;
+        assert_eq!(floats(sets, "points").len(), 3 * points);
+        assert_eq!((ids(sets, "edges").len(), floats(sets, "parameters").len()), (2 * points, points));
+    }
+    assert_eq!(floats(&listed, "points"), floats(&counted, "points"));
+    for bad in [
+        "undefined",
+        "{}",
+        "{ count: -1 }",
+        "{ count: 1.5 }",
+        "{ count: 'many' }",
+        "{ counts: 3 }",
+        "[0.5]",
+        "3",
+        "{ count: 1e9 }",
+    ] {
+        let (code, message, _) = thrown(mesh.level_sets(&array(&f), &js(bad)));
+        assert!(["InvalidArgument", "InvalidOption", "UnknownOption"].contains(&code.as_str()), "{bad}: {code}");
+        assert!(!message.contains("JsValue"), "{bad}: {message}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn matrices_come_as_compressed_columns() {
+    let mesh = torus();
+    let given = raw(&mesh);
+    let expected = operators::galerkin_mass(&mesh, operators::MassScale::Raw).expect("an area");
+    let found = given.mass(&js("{ kind: 'galerkin', massScale: 'raw' }")).ok().expect("an area");
+    assert_eq!((number(&found, "rows"), number(&found, "columns")), (108.0, 108.0));
+    assert_eq!(floats(&found, "values"), expected.values());
+    let narrow = |values: &[usize]| values.iter().map(|&v| v as u32).collect::<Vec<u32>>();
+    assert_eq!(ids(&found, "rowIndices"), narrow(expected.row_indices()));
+    assert_eq!(ids(&found, "columnPointers"), narrow(expected.col_offsets()));
+    let lumped = given.mass(&js("{ kind: 'lumped' }")).ok().expect("an area");
+    assert!((floats(&lumped, "values").iter().sum::<f64>() - 108.0).abs() < 1e-10);
+    let mean_value = given.laplacian(&js("{ weights: 'meanValue' }")).ok().expect("weights");
+    assert_eq!(floats(&mean_value, "values"), operators::mean_value_laplacian(&mesh).expect("weights").values());
+    let energies = given.smoothness(&array(mesh.positions()).slice(0, 108), &NONE).ok().expect("a field");
+    assert!(number(&energies, "sobolev") > 0.0 && number(&energies, "laplacianNorm") > 0.0);
+}
+
+#[wasm_bindgen_test]
+fn smoothing_is_that_of_rust() {
+    let mesh = torus();
+    let f = noise(mesh.vertex_count());
+    let mut native = Smoother::new(&mesh, SmootherOptions::default()).expect("cotangents");
+    let expected =
+        native.tikhonov(&f, &TikhonovOptions { epsilon: 0.3, ..TikhonovOptions::default() }).expect("a solution");
+    let mut smoother = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
+    let long: JsValue = smoother.tikhonov(&array(&f), &js("{ epsilon: 0.3 }")).ok().expect("a solution").into();
+    let short: JsValue = smooth(&raw(&mesh), &array(&f), &js("{ epsilon: 0.3 }")).ok().expect("a solution").into();
+    for found in [&long, &short] {
+        assert_eq!(floats(found, "values"), expected.values);
+        let (report, wanted) = (get(found, "report"), &expected.reports[0]);
+        for (name, value) in [
+            ("epsilon", 0.3),
+            ("lInfinity", wanted.l_infinity),
+            ("l2", wanted.l2),
+            ("metricNorm", wanted.metric_norm),
+            ("laplacianNorm", wanted.laplacian_norm),
+            ("sobolevBefore", wanted.sobolev_before),
+            ("sobolevAfter", wanted.sobolev_after),
+        ] {
+            assert_eq!(number(&report, name), value, "{name}");
+        }
+        assert_eq!(number(&get(&report, "after"), "indexSum"), 0.0);
+        assert!(get(&report, "preserved").is_null());
+        assert_eq!(get(&get(&report, "solver"), "route"), JsValue::from_str("cholesky"));
+        assert_eq!(Array::from(&get(found, "reports")).length(), 1);
+    }
+    let twice: Vec<f64> = f.iter().flat_map(|&x| [x, -x]).collect();
+    let found: JsValue =
+        smoother.tikhonov(&array(&twice), &js("{ epsilon: 0.3, channels: 2 }")).ok().expect("a solution").into();
+    assert_eq!(Array::from(&get(&found, "reports")).length(), 2);
+    let first: Vec<f64> = floats(&found, "values").into_iter().step_by(2).collect();
+    assert!(first.iter().zip(&expected.values).all(|(a, b)| (a - b).abs() < 1e-13));
+}
+
+#[wasm_bindgen_test]
+fn progress_is_told_and_cannot_harm() {
+    let mesh = raw(&torus());
+    let f = array(&noise(108));
+    let options = js("{ epsilon: 0.1, onProgress: (p) => { (globalThis.told ??= []).push(p); } }");
+    smooth(&mesh, &f, &options).ok().expect("a solution");
+    let told = Array::from(&get(&js_sys::global(), "told"));
+    let phases: Vec<String> = told.iter().map(|p| get(&p, "phase").as_string().expect("a phase")).collect();
+    assert_eq!(phases, ["analysis", "factorization", "solve", "report", "report"]);
+    let fractions: Vec<f64> = told.iter().map(|p| number(&p, "fraction")).collect();
+    assert!(fractions.windows(2).all(|pair| pair[0] <= pair[1]) && fractions.last() == Some(&1.0));
+    let throwing = js("{ epsilon: 0.1, onProgress: () => { throw new Error('mine'); } }");
+    smooth(&mesh, &f, &throwing).ok().expect("a solution");
+    assert_eq!(thrown(smooth(&mesh, &f, &js("{ epsilon: 0.1, onProgress: 3 }"))).0, "InvalidOption");
+}
+
+#[wasm_bindgen_test]
+fn wrong_options_are_refused_by_name() {
+    let mesh = raw(&torus());
+    let f = array(&noise(108));
+    let mut smoother = RawSmoother::new(&mesh, &NONE).ok().expect("cotangents");
+    let good: JsValue = smoother.tikhonov(&f, &js("{ epsilon: 1 }")).ok().expect("a solution").into();
+    for (text, code, named) in [
+        ("{ epsilonn: 1 }", "UnknownOption", "epsilonn"),
+        ("{ epsilon: 1, metric: 'mas' }", "InvalidOption", "metric"),
+        ("{ epsilon: 1, metric: 3 }", "InvalidOption", "metric"),
+        ("{ epsilon: '1' }", "InvalidOption", "epsilon"),
+        ("{ epsilon: 0 }", "InvalidOption", "epsilon"),
+        ("{ epsilon: NaN }", "InvalidOption", "epsilon"),
+        ("{ epsilon: -1 }", "InvalidOption", "epsilon"),
+        ("{}", "InvalidOption", "epsilon"),
+        ("undefined", "InvalidOption", "epsilon"),
+        ("{ epsilon: 1, channels: 0 }", "InvalidOption", "channels"),
+        ("{ epsilon: 1, channels: -1 }", "InvalidOption", "channels"),
+        ("{ epsilon: 1, channels: 1.5 }", "InvalidOption", "channels"),
+        ("{ epsilon: 1, metric: 'identity', massScale: 'raw' }", "InapplicableOption", "massScale"),
+        ("5", "InvalidArgument", "options"),
+        ("'epsilon'", "InvalidArgument", "options"),
+        ("[1]", "InvalidArgument", "options"),
+        ("() => 1", "InvalidArgument", "options"),
+    ] {
+        let (found, message, detail) = thrown(smoother.tikhonov(&f, &js(text)));
+        assert_eq!(found, code, "{text}: {message}");
+        let name = if code == "InvalidArgument" { "argument" } else { "option" };
+        assert_eq!(get(&detail, name).as_string().as_deref(), Some(named), "{text}");
+        assert!(message.contains(named), "{text}: {message}");
+    }
+    // The same instance goes on as before.
+    let again: JsValue = smoother.tikhonov(&f, &js("{ epsilon: 1 }")).ok().expect("a solution").into();
+    assert_eq!(floats(&again, "values"), floats(&good, "values"));
+    for (text, code) in [
+        ("{ weights: 'cotan' }", "InvalidOption"),
+        ("{ weights: 'intrinsicDelaunay' }", "UnsupportedOption"),
+        ("{ operator: 'fem' }", "UnsupportedOption"),
+        ("{ solver: 'cg', colour: 1 }", "UnknownOption"),
+        ("{ bounds: 'yes' }", "InvalidOption"),
+    ] {
+        assert_eq!(thrown(RawSmoother::new(&mesh, &js(text))).0, code, "{text}");
+    }
+    for (text, code) in [
+        ("{ epsilon: 'auto' }", "UnsupportedOption"),
+        ("{ epsilon: 'much' }", "InvalidOption"),
+        ("{ epsilon: 1, method: 'interpolate' }", "UnsupportedOption"),
+        ("{ epsilon: 1, constraints: {} }", "UnsupportedOption"),
+        ("{ epsilon: 1, __proto__: null, surprise: 1 }", "UnknownOption"),
+    ] {
+        assert_eq!(thrown(smooth(&mesh, &f, &js(text))).0, code, "{text}");
+    }
+    assert_eq!(thrown(mesh.critical_points(&f, &js("{ delta: -1 }"))).0, "InvalidOption");
+    assert_eq!(thrown(mesh.critical_points(&f, &js("{ delta: 0.1, link: 'Skip' }"))).0, "InvalidOption");
+    assert_eq!(thrown(mesh.mass(&js("{ kind: 'full' }"))).0, "InvalidOption");
+}
+
+#[wasm_bindgen_test]
+fn wrong_data_is_refused_with_its_ids() {
+    let positions = array(&[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+    let (code, _, detail) = thrown(RawTriMesh::new(&positions, &Uint32Array::from(&[0, 1, 9][..]), &NONE));
+    assert_eq!(code, "IndexOutOfBounds");
+    assert_eq!((number(&detail, "triangle"), number(&detail, "index"), number(&detail, "vertices")), (0.0, 9.0, 3.0));
+    let empty = RawTriMesh::new(&Float64Array::new_with_length(0), &Uint32Array::new_with_length(0), &NONE);
+    assert_eq!(thrown(empty).0, "EmptyMesh");
+    let (code, _, detail) = thrown(RawTriMesh::new(&array(&[f64::NAN; 9]), &Uint32Array::from(&[0, 1, 2][..]), &NONE));
+    assert_eq!((code.as_str(), number(&detail, "vertex")), ("NonFinitePosition", 0.0));
+    let mesh = raw(&torus());
+    let mut f = noise(108);
+    f[33] = f64::INFINITY;
+    let (code, _, detail) = thrown(mesh.critical_points(&array(&f), &NONE));
+    assert_eq!((code.as_str(), number(&detail, "vertex")), ("NonFiniteValue", 33.0));
+    let (code, _, detail) = thrown(smooth(&mesh, &array(&f[1..]), &js("{ epsilon: 1 }")));
+    assert_eq!(
+        (code.as_str(), number(&detail, "expected"), number(&detail, "actual")),
+        ("LengthMismatch", 108.0, 107.0)
+    );
+}
+
+#[wasm_bindgen_test]
+fn files_go_round() {
+    let mesh = torus();
+    let f = noise(108);
+    let fields = Object::new();
+    Reflect::set(&fields, &JsValue::from_str("height"), &array(&f)).expect("an object");
+    for format in ["'ply', binary: true", "'ply'", "'vtk', binary: true", "'vtk'"] {
+        let options = js(&format!("{{ format: {format} }}"));
+        Reflect::set(&options, &JsValue::from_str("fields"), &fields).expect("an object");
+        let file = write_mesh(&raw(&mesh), &options).ok().expect("a file");
+        let back: JsValue = read_mesh(&file, &NONE).ok().expect("a mesh").into();
+        assert_eq!(floats(&get(&back, "fields"), "height"), f, "{format}");
+        assert_eq!(Array::from(&get(&back, "warnings")).length(), 0, "{format}");
+        assert!(get(&back, "mesh").is_object() && get(&back, "format").is_string());
+    }
+    let column = Uint8Array::from(&b"1.5\n-2\n3e1\n"[..]);
+    assert_eq!(read_field(&column, &NONE).ok().expect("a column").to_vec(), [1.5, -2.0, 30.0]);
+    assert_eq!(thrown(read_mesh(&Uint8Array::new_with_length(0), &NONE)).0, "EmptyFile");
+    assert_eq!(thrown(read_mesh(&column, &js("{ format: 'doc' }"))).0, "InvalidOption");
+    assert_eq!(thrown(read_mesh(&column, &js("{ filename: 'a.ply' }"))).0, "UnknownOption");
+    assert_eq!(thrown(write_mesh(&raw(&mesh), &NONE)).0, "InvalidOption");
+    assert_eq!(thrown(write_mesh(&raw(&mesh), &js("{ format: 'ply', fields: { a: [1, 2] } }"))).0, "InvalidOption");
+    let short = js("{ format: 'ply', fields: { a: new Float64Array(3) } }");
+    assert_eq!(thrown(write_mesh(&raw(&mesh), &short)).0, "LengthMismatch");
+    assert_eq!(thrown(read_field(&column, &js("{ column: -1 }"))).0, "InvalidOption");
+}

@@ -1,0 +1,201 @@
+//! The invariants of the house that a compiler does not check: which module may know which.
+
+use std::path::Path;
+
+/// What a module of the crate may import from it. The bindings may import anything.
+const MAY_IMPORT: [(&str, &[&str]); 7] = [
+    ("error", &[]),
+    ("io", &["error"]),
+    ("mesh", &["error", "io"]),
+    ("operators", &["error", "mesh"]),
+    ("field", &["error", "mesh"]),
+    ("solve", &["error"]),
+    ("smooth", &["error", "mesh", "operators", "field", "solve"]),
+];
+
+/// Words that the numerical core does without, so that results depend on no platform, clock, hash order or global state.
+const NOT_IN_THE_CORE: [&str; 16] = [
+    "std::time",
+    "Instant",
+    "SystemTime",
+    "HashMap",
+    "HashSet",
+    "thread_local",
+    ".sin()",
+    ".cos()",
+    ".tan()",
+    ".sin_cos()",
+    ".asin()",
+    ".acos()",
+    ".atan()",
+    ".atan2(",
+    "f64::sin",
+    "f64::cos",
+];
+
+/// A source without comments and without its text literals' content, which name things freely.
+fn code_of(source: &str) -> String {
+    let mut code = String::new();
+    for line in source.lines() {
+        let mut quoted = false;
+        let mut previous = ' ';
+        for (place, c) in line.char_indices() {
+            if !quoted && line[place..].starts_with("//") {
+                break;
+            }
+            if c == '"' && previous != '\\' && previous != '\'' {
+                quoted = !quoted;
+            }
+            if !quoted {
+                code.push(c);
+            }
+            previous = if previous == '\\' { ' ' } else { c };
+        }
+        code.push('\n');
+    }
+    code
+}
+
+/// The modules of the crate that a piece of code names: `crate::a`, `crate::{a, b::c}`.
+fn imports(code: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (place, _) in code.match_indices("crate::") {
+        let rest = &code[place + "crate::".len()..];
+        if place > 0 && code[..place].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
+            continue;
+        }
+        let word = |text: &str| -> String {
+            text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+        };
+        if let Some(group) = rest.strip_prefix('{') {
+            let (mut depth, mut start) = (0, 0);
+            for (i, c) in group.char_indices() {
+                match c {
+                    '{' => depth += 1,
+                    '}' | ',' if depth == 0 => {
+                        found.push(word(&group[start..i]));
+                        start = i + 1;
+                        if c == '}' {
+                            break;
+                        }
+                    }
+                    '}' => depth -= 1,
+                    _ => {}
+                }
+            }
+        } else {
+            found.push(word(rest));
+        }
+    }
+    // Names that `lib.rs` re-exports stand for the module they come from.
+    found
+        .into_iter()
+        .filter(|name| !name.is_empty())
+        .map(|name| match name.as_str() {
+            "Error" | "Result" | "Diagnostic" => "error".to_owned(),
+            "TriMesh" => "mesh".to_owned(),
+            "Smoother" | "SmootherOptions" => "smooth".to_owned(),
+            _ => name,
+        })
+        .collect()
+}
+
+/// Everything that one file does against the rules. `path` is relative to `src`, with slashes.
+fn violations(path: &str, source: &str) -> Vec<String> {
+    let code = code_of(source);
+    let module = path.split('/').next().unwrap_or(path).trim_end_matches(".rs");
+    let mut found = Vec::new();
+    let mut forbid = |words: &[&str], why: &str| {
+        for word in words.iter().filter(|word| code.contains(*word)) {
+            found.push(format!("{path} names `{word}`: {why}"));
+        }
+    };
+    forbid(&["static mut", "thread_local"], "no global state");
+    if module == "lib" || module == "wasm" {
+        return found;
+    }
+    forbid(&["js_sys", "web_sys", "wasm_bindgen"], "only the bindings know JavaScript");
+    if path != "mesh/shapes.rs" {
+        forbid(&NOT_IN_THE_CORE, "results must not depend on the platform");
+    }
+    if module == "io" {
+        forbid(&["std::path", "std::fs", "Path", "File::"], "files come as bytes");
+    }
+    if path == "mesh/connectivity.rs" {
+        forbid(&["f64", "f32"], "the connectivity holds no positions");
+    }
+    match MAY_IMPORT.iter().find(|(name, _)| *name == module) {
+        None => found.push(format!("{path}: the module `{module}` has no place in the layers yet")),
+        Some((_, allowed)) => {
+            for import in imports(&code) {
+                if import != module && !allowed.contains(&import.as_str()) {
+                    found.push(format!("{path} imports `{import}`, but `{module}` may only import {allowed:?}"));
+                }
+            }
+        }
+    }
+    found
+}
+
+fn sources(folder: &Path, base: &Path, into: &mut Vec<(String, String)>) {
+    let mut entries: Vec<_> =
+        std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("an entry").path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            sources(&path, base, into);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let name = path.strip_prefix(base).expect("below src").to_string_lossy().replace('\\', "/");
+            into.push((name, std::fs::read_to_string(&path).expect("a source")));
+        }
+    }
+}
+
+#[test]
+fn every_source_keeps_to_its_layer() {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    sources(&base, &base, &mut files);
+    assert!(files.len() > 20, "the sources were found");
+    for (module, _) in MAY_IMPORT {
+        let prefix = format!("{module}/");
+        assert!(files.iter().any(|(path, _)| path.starts_with(&prefix) || *path == format!("{module}.rs")), "{module}");
+    }
+    let found: Vec<String> = files.iter().flat_map(|(path, source)| violations(path, source)).collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn the_check_catches_what_it_is_for() {
+    let bad = [
+        ("solve/cg.rs", "use crate::mesh::TriMesh;"),
+        ("solve/cg.rs", "use crate::{error::SolveError, mesh};"),
+        ("solve/cg.rs", "fn f(m: &crate::TriMesh) {}"),
+        ("io/ply.rs", "use crate::mesh::TriMesh;"),
+        ("io/ply.rs", "use std::path::Path;"),
+        ("io/ply.rs", "let x = std::fs::read(p);"),
+        ("mesh/mod.rs", "use crate::{\n    error::{A, B},\n    field::order,\n};"),
+        ("mesh/connectivity.rs", "positions: Vec<f64>,"),
+        ("field/link.rs", "use crate::operators;"),
+        ("operators/mass.rs", "let x = angle.cos();"),
+        ("field/order.rs", "use std::collections::HashMap;"),
+        ("smooth/mod.rs", "let t = std::time::Instant::now();"),
+        ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),
+        ("error.rs", "use crate::io::MeshFormat;"),
+        ("wasm/mod.rs", "static mut STATE: u32 = 0;"),
+        ("clock/mod.rs", "fn f() {}"),
+    ];
+    for (path, source) in bad {
+        assert!(!violations(path, source).is_empty(), "{path}: {source}");
+    }
+    let good = [
+        ("solve/cg.rs", "use crate::error::SolveError; // as crate::mesh does\nlet x = \"crate::mesh \\\" sin(\";"),
+        ("smooth/mod.rs", "use crate::{error::Result, mesh::{TriMesh, shapes}, solve::norm};\npub(crate) fn f() {}"),
+        ("mesh/shapes.rs", "let x = u.cos();"),
+        ("field/order.rs", "/// See `crate::smooth`.\nlet cosine = dot(a, b);"),
+        ("wasm/mod.rs", "use wasm_bindgen::prelude::*;\nuse crate::smooth::Smoother;"),
+    ];
+    for (path, source) in good {
+        assert_eq!(violations(path, source), Vec::<String>::new(), "{source}");
+    }
+}

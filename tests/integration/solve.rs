@@ -1,0 +1,325 @@
+//! The linear solvers against dense algebra.
+
+use morse_smooth::error::SolveError;
+use morse_smooth::mesh::shapes::{self, Random};
+use morse_smooth::operators::uniform_laplacian;
+use morse_smooth::solve::{
+    CgOptions, CholeskyAnalysis, CholeskyFactor, Permutation, conjugate_gradient, gram, minimum_degree, norm, product,
+    quadratic_form, submatrix, transposed_product,
+};
+use nalgebra::{DMatrix, DVector};
+use nalgebra_sparse::{CooMatrix, CscMatrix};
+use proptest::prelude::*;
+
+use crate::support::{dense, shuffle};
+
+/// A symmetric matrix from its pairs, made definite by a dominant diagonal.
+fn dominant(n: usize, pairs: &[(usize, usize, f64)]) -> CscMatrix<f64> {
+    let mut coo = CooMatrix::new(n, n);
+    let mut sums = vec![0.5; n];
+    let mut seen = std::collections::BTreeSet::new();
+    for &(i, j, value) in pairs {
+        if i != j && seen.insert((i.min(j), i.max(j))) {
+            coo.push(i, j, value);
+            coo.push(j, i, value);
+            sums[i] += value.abs();
+            sums[j] += value.abs();
+        }
+    }
+    for (i, &sum) in sums.iter().enumerate() {
+        coo.push(i, i, sum);
+    }
+    CscMatrix::from(&coo)
+}
+
+fn random_spd(seed: u64, n: usize, pairs: usize) -> CscMatrix<f64> {
+    let mut random = Random::new(seed);
+    let pairs: Vec<(usize, usize, f64)> = (0..pairs)
+        .map(|_| {
+            let at = |x: f64| (x * n as f64) as usize;
+            (at(random.uniform()), at(random.uniform()), random.signed())
+        })
+        .collect();
+    dominant(n, &pairs)
+}
+
+fn star(n: usize) -> CscMatrix<f64> {
+    // The hub is in the middle of the numbering.
+    dominant(n, &(0..n).map(|i| (i, n / 2, -1.0 - i as f64 / n as f64)).collect::<Vec<_>>())
+}
+
+/// Entries of the factor when the unknowns are eliminated in this order: elimination played on a dense pattern.
+fn played_out(matrix: &CscMatrix<f64>, order: &[u32]) -> u64 {
+    let n = order.len();
+    let mut linked = vec![vec![false; n]; n];
+    for (i, j, _) in matrix.triplet_iter() {
+        linked[i][j] = true;
+    }
+    let mut alive = vec![true; n];
+    let mut entries = 0;
+    for &pivot in order {
+        let pivot = pivot as usize;
+        alive[pivot] = false;
+        let next: Vec<usize> = (0..n).filter(|&v| alive[v] && linked[pivot][v]).collect();
+        entries += 1 + next.len() as u64;
+        for &a in &next {
+            for &b in &next {
+                linked[a][b] = true;
+            }
+        }
+    }
+    entries
+}
+
+fn check_order(matrix: &CscMatrix<f64>) -> Vec<u32> {
+    let order = minimum_degree(matrix.pattern());
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    assert!(sorted.iter().copied().eq(0..matrix.nrows() as u32), "a permutation");
+    order
+}
+
+fn check_solver(matrix: &CscMatrix<f64>, seed: u64, columns: usize) {
+    let n = matrix.nrows();
+    let mut random = Random::new(seed);
+    let right: Vec<f64> = (0..n * columns).map(|_| random.signed()).collect();
+    let expected = dense(matrix).cholesky().expect("definite").solve(&DMatrix::from_column_slice(n, columns, &right));
+    let analysis = CholeskyAnalysis::new(matrix.pattern()).unwrap();
+    let found = analysis.factor(matrix.values()).unwrap().solve(&right).unwrap();
+    let difference = (DMatrix::from_column_slice(n, columns, &found) - &expected).abs().max();
+    assert!(difference <= 1e-12 * expected.abs().max(), "{difference:e}");
+    assert_eq!(analysis.unknowns(), n);
+    assert_eq!(analysis.size().nonzeros, played_out(matrix, &check_order(matrix)));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn cholesky_agrees_with_dense_algebra(seed: u64, n in 1_usize..40, density in 0.0..3.0, columns in 1_usize..4) {
+        check_solver(&random_spd(seed, n, (density * n as f64) as usize), seed, columns);
+    }
+
+    #[test]
+    fn any_order_gives_the_same_solution(seed: u64, n in 2_usize..30) {
+        let matrix = random_spd(seed, n, 2 * n);
+        let mut order: Vec<u32> = (0..n as u32).collect();
+        shuffle(&mut order, &mut Random::new(seed));
+        let permutation = Permutation::new(order.clone()).unwrap();
+        for (new, &old) in order.iter().enumerate() {
+            prop_assert_eq!(permutation.old_to_new()[old as usize] as usize, new);
+        }
+        let analysis = CholeskyAnalysis::with_permutation(matrix.pattern(), permutation).unwrap();
+        prop_assert_eq!(analysis.size().nonzeros, played_out(&matrix, &order));
+        let x = DVector::from_fn(n, |i, _| 1.0 + i as f64);
+        let found = analysis.factor(matrix.values()).unwrap().solve((dense(&matrix) * &x).as_slice()).unwrap();
+        prop_assert!((DVector::from_vec(found) - &x).abs().max() <= 1e-11 * n as f64);
+    }
+
+    #[test]
+    fn conjugate_gradients_agree_with_dense_algebra(seed: u64, n in 1_usize..40, density in 0.0..3.0) {
+        let matrix = random_spd(seed, n, (density * n as f64) as usize);
+        let full = dense(&matrix);
+        let mut random = Random::new(seed);
+        let b: Vec<f64> = (0..n).map(|_| random.signed()).collect();
+        let expected = full.clone().cholesky().unwrap().solve(&DVector::from_vec(b.clone()));
+        let mut x = vec![0.0; n];
+        let options = CgOptions::default();
+        let info = conjugate_gradient(|v| product(&matrix, v), full.diagonal().as_slice(), &b, &mut x, &options).unwrap();
+        let residual = (&full * DVector::from_vec(x.clone()) - DVector::from_vec(b.clone())).norm();
+        prop_assert!(residual <= 1.01e-11 * norm(&b) && info.relative_residual <= 1e-11);
+        prop_assert!((residual / norm(&b) - info.relative_residual).abs() <= 1e-14);
+        prop_assert!((DVector::from_vec(x) - &expected).norm() <= 1e-9 * expected.norm());
+    }
+
+    #[test]
+    fn products_agree_with_dense_algebra(seed: u64, rows in 1_usize..12, columns in 1_usize..12) {
+        let mut random = Random::new(seed);
+        let full = DMatrix::from_fn(rows, columns, |_, _| if random.uniform() < 0.4 { random.signed() } else { 0.0 });
+        let sparse = CscMatrix::from(&full);
+        let (x, y) = (DVector::from_fn(columns, |_, _| random.signed()), DVector::from_fn(rows, |_, _| random.signed()));
+        let close = |a: Vec<f64>, b: DVector<f64>| (DVector::from_vec(a) - b).abs().max() < 1e-14;
+        prop_assert!(close(product(&sparse, x.as_slice()), &full * &x));
+        prop_assert!(close(transposed_product(&sparse, y.as_slice()), full.transpose() * &y));
+        prop_assert!((dense(&gram(&sparse)) - full.transpose() * &full).abs().max() < 1e-14);
+        let square = &full * full.transpose();
+        let form = quadratic_form(&CscMatrix::from(&square), y.as_slice());
+        prop_assert!((form - (&square * &y).dot(&y)).abs() < 1e-13);
+        let kept: Vec<u32> = (0..rows as u32).filter(|_| random.uniform() < 0.6).collect();
+        let part = submatrix(&CscMatrix::from(&square), &kept);
+        for (i, &a) in kept.iter().enumerate() {
+            for (j, &b) in kept.iter().enumerate() {
+                prop_assert_eq!(dense(&part)[(i, j)], square[(a as usize, b as usize)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn matrices_of_special_shape() {
+    check_solver(&dominant(1, &[]), 1, 2);
+    check_solver(&dominant(7, &[]), 2, 3);
+    check_solver(&dominant(6, &[(0, 1, 1.0), (2, 3, -2.0), (3, 4, 0.5)]), 3, 1);
+    check_solver(&dominant(20, &(0..19).map(|i| (i, i + 1, -1.0)).collect::<Vec<_>>()), 4, 1);
+    let full: Vec<(usize, usize, f64)> = (0..12).flat_map(|i| (0..i).map(move |j| (i, j, 0.1))).collect();
+    check_solver(&dominant(12, &full), 5, 1);
+    check_solver(&star(40), 6, 2);
+    // Past the threshold for dense rows the hub is put off to the end, and the factor has no fill at all.
+    let large = star(300);
+    let analysis = CholeskyAnalysis::new(large.pattern()).unwrap();
+    assert_eq!(analysis.size().nonzeros, 599);
+    assert_eq!(played_out(&large, &check_order(&large)), 599);
+    // Two hubs that are linked, and a path beside them.
+    let mut pairs: Vec<(usize, usize, f64)> = (2..250).flat_map(|i| [(i, 0, -1.0), (i, 1, 0.5)]).collect();
+    pairs.push((0, 1, 1.0));
+    pairs.extend((250..279).map(|i| (i, i + 1, -1.0)));
+    check_solver(&dominant(280, &pairs), 7, 1);
+}
+
+#[test]
+fn minimum_degree_saves_fill() {
+    // A tree needs no fill.
+    let tree: Vec<(usize, usize, f64)> = (1..127).map(|i| (i, (i - 1) / 2, 1.0)).collect();
+    let tree = dominant(127, &tree);
+    assert_eq!(played_out(&tree, &check_order(&tree)), 127 + 126);
+    // On grids about what the exact minimum degree gives, and far less than the natural order's band.
+    for side in [12, 20] {
+        let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap());
+        for matrix in [laplacian.clone(), gram(&laplacian)] {
+            let natural: Vec<u32> = (0..side * side).collect();
+            let natural = played_out(&matrix, &natural);
+            let exact = played_out(&matrix, &exact_minimum_degree(&matrix));
+            let found = played_out(&matrix, &check_order(&matrix));
+            assert!((found as f64) < 1.15 * exact as f64, "{side}: {found} where {exact} entries do");
+            assert!((found as f64) < 0.85 * natural as f64, "{side}: {found} of {natural}");
+        }
+    }
+}
+
+/// Eliminates a vertex of the smallest degree, by brute force.
+fn exact_minimum_degree(matrix: &CscMatrix<f64>) -> Vec<u32> {
+    let n = matrix.nrows();
+    let mut linked = vec![std::collections::BTreeSet::new(); n];
+    for (i, j, _) in matrix.triplet_iter().filter(|&(i, j, _)| i != j) {
+        linked[i].insert(j);
+    }
+    let mut left: Vec<usize> = (0..n).collect();
+    let mut order = Vec::new();
+    while let Some(place) = (0..left.len()).min_by_key(|&i| linked[left[i]].len()) {
+        let pivot = left.remove(place);
+        order.push(pivot as u32);
+        let clique = core::mem::take(&mut linked[pivot]);
+        for &v in &clique {
+            linked[v].remove(&pivot);
+            linked[v].extend(clique.iter().copied().filter(|&u| u != v));
+        }
+    }
+    order
+}
+
+#[test]
+fn refactoring_equals_a_new_factor() {
+    let first = random_spd(3, 50, 120);
+    let mut second = first.clone();
+    second.values_mut().iter_mut().for_each(|v| *v *= 3.0);
+    let b: Vec<f64> = (0..100).map(f64::from).collect();
+    let analysis = CholeskyAnalysis::new(first.pattern()).unwrap();
+    let mut factor = analysis.factor(first.values()).unwrap();
+    let original = factor.solve(&b).unwrap();
+    factor.refactor(second.values()).unwrap();
+    assert_eq!(factor.solve(&b).unwrap(), analysis.factor(second.values()).unwrap().solve(&b).unwrap());
+    // After a matrix that cannot be factorised it takes the next one.
+    let mut indefinite = first.clone();
+    indefinite.values_mut().iter_mut().for_each(|v| *v = -*v);
+    assert_eq!(factor.refactor(indefinite.values()), Err(SolveError::NotPositiveDefinite {}));
+    factor.refactor(first.values()).unwrap();
+    assert_eq!(factor.solve(&b).unwrap(), original);
+    let x = &original[..50];
+    assert!(CholeskyFactor::relative_residual(&first, x, &b[..50]) < 1e-14);
+    assert_eq!(CholeskyFactor::relative_residual(&first, &[0.0; 50], &b[..50]), 1.0);
+    assert_eq!(CholeskyFactor::relative_residual(&first, &[0.0; 50], &[0.0; 50]), 0.0);
+}
+
+#[test]
+fn the_direct_solver_refuses_by_name() {
+    let matrix = random_spd(9, 10, 20);
+    let wide = CscMatrix::from(&DMatrix::<f64>::from_element(3, 4, 1.0));
+    let code = |error: SolveError| error.code();
+    assert_eq!(CholeskyAnalysis::new(wide.pattern()).map(|_| ()).map_err(code), Err("DimensionMismatch"));
+    let analysis = CholeskyAnalysis::new(matrix.pattern()).unwrap();
+    let factor = analysis.factor(matrix.values()).unwrap();
+    assert_eq!(factor.solve(&[1.0; 9]).map_err(code), Err("DimensionMismatch"));
+    assert_eq!(factor.solve(&[1.0; 15]).map_err(code), Err("DimensionMismatch"));
+    let mut right = vec![1.0; 20];
+    right[13] = f64::NAN;
+    assert_eq!(factor.solve(&right), Err(SolveError::NonFiniteEntry { row: 3 }));
+    assert_eq!(analysis.factor(&matrix.values()[1..]).map(|_| ()).map_err(code), Err("PatternMismatch"));
+    // The row named is that of the matrix.
+    for (place, (row, _, _)) in matrix.triplet_iter().enumerate() {
+        let mut values = matrix.values().to_vec();
+        values[place] = f64::INFINITY;
+        match analysis.factor(&values).map(|_| ()) {
+            Err(SolveError::NonFiniteEntry { row: named }) => {
+                let column = matrix.col_offsets().partition_point(|&start| start <= place) - 1;
+                assert!(named == row || named == column, "entry {place} is in row {row}, not {named}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    let mut values = matrix.values().to_vec();
+    values.iter_mut().for_each(|v| *v = 0.0);
+    assert_eq!(analysis.factor(&values).map(|_| ()), Err(SolveError::NotPositiveDefinite {}));
+    assert!(matches!(Permutation::new(vec![0, 2, 2]), Err(SolveError::DimensionMismatch { .. })));
+    assert!(matches!(Permutation::new(vec![0, 3, 1]), Err(SolveError::DimensionMismatch { .. })));
+    let short = Permutation::new(vec![1, 0]).unwrap();
+    assert!(matches!(
+        CholeskyAnalysis::with_permutation(matrix.pattern(), short),
+        Err(SolveError::DimensionMismatch { expected: 10, actual: 2 })
+    ));
+}
+
+#[test]
+fn conjugate_gradients_refuse_by_name() {
+    // The Hilbert matrix: hopeless for a handful of iterations.
+    let n = 30;
+    let hilbert = DMatrix::from_fn(n, n, |i, j| 1.0 / (1 + i + j) as f64 + if i == j { 1e-9 } else { 0.0 });
+    let apply = |v: &[f64]| (&hilbert * DVector::from_column_slice(v)).as_slice().to_vec();
+    let diagonal = hilbert.diagonal();
+    let b = vec![1.0; n];
+    let mut x = vec![0.0; n];
+    let few = CgOptions { max_iterations: 3, ..CgOptions::default() };
+    match conjugate_gradient(apply, diagonal.as_slice(), &b, &mut x, &few) {
+        Err(SolveError::NotConverged { iterations: 3, residual }) => {
+            let actual = (&hilbert * DVector::from_vec(x.clone()) - DVector::from_vec(b.clone())).norm() / norm(&b);
+            assert!((residual / actual - 1.0).abs() < 1e-9, "{residual:e} {actual:e}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let solve = |diagonal: &[f64], b: &[f64], x: &mut [f64]| {
+        conjugate_gradient(apply, diagonal, b, x, &CgOptions::default()).map(|_| ()).map_err(|error| error.code())
+    };
+    assert_eq!(solve(&[1.0; 29], &b, &mut x), Err("DimensionMismatch"));
+    assert_eq!(solve(&[1.0; 30], &b, &mut [0.0; 31]), Err("DimensionMismatch"));
+    assert_eq!(solve(&[0.0; 30], &b, &mut x), Err("NotPositiveDefinite"));
+    assert_eq!(solve(&[1.0; 30], &[f64::NAN; 30], &mut x), Err("NonFiniteEntry"));
+    let mut x = vec![5.0; n];
+    assert_eq!(solve(&[1.0; 30], &[0.0; 30], &mut x), Ok(()));
+    assert!(x.iter().all(|&v| v == 0.0));
+    let mut x = [0.0; 2];
+    let indefinite = |v: &[f64]| vec![v[0], -v[1]];
+    let found = conjugate_gradient(indefinite, &[1.0; 2], &[0.0, 1.0], &mut x, &CgOptions::default());
+    assert_eq!(found, Err(SolveError::NotPositiveDefinite {}));
+}
+
+#[test]
+fn sizes_at_the_ends_of_double_precision() {
+    // Squares of these leave the range; the solution does not.
+    for size in [1e-300, 1e-170, 1e170, 1e300] {
+        assert!((norm(&[3.0 * size, 4.0 * size]) / (5.0 * size) - 1.0).abs() < 1e-15, "norm at {size:e}");
+        let mut x = [0.0; 2];
+        let apply = |v: &[f64]| vec![2.0 * v[0] + v[1], v[0] + 2.0 * v[1]];
+        let b = [3.0 * size, 3.0 * size];
+        conjugate_gradient(apply, &[2.0; 2], &b, &mut x, &CgOptions::default()).unwrap();
+        assert!(x.iter().all(|v| (v / size - 1.0).abs() < 1e-10), "{x:?} at {size:e}");
+    }
+}
