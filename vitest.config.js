@@ -37,7 +37,15 @@ export default defineConfig({
         },
       },
       { extends: true, test: { name: 'page', include: ['tests/browser/**/*.test.{js,ts}'], fileParallelism: false } },
-      { extends: true, test: { name: 'package', include: ['tests/package/**/*.test.js'], fileParallelism: false } },
+      {
+        extends: true,
+        test: {
+          name: 'package',
+          include: ['tests/package/**/*.test.js'],
+          globalSetup: 'tests/package/install.js',
+          fileParallelism: false,
+        },
+      },
     ],
   },
 });

@@ -1,11 +1,12 @@
 // npm run build: the wasm module into pkg/, the npm package's files into dist/.
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { withLock } from './lib/lock.mjs';
 import { Problem, main, step } from './lib/log.mjs';
-import { dist, inRoot, pkg } from './lib/paths.mjs';
+import { dist, inRoot, pkg, root } from './lib/paths.mjs';
 import { ask } from './lib/run.mjs';
 import { runWasmPack } from './lib/wasm-pack.mjs';
 import { setUp } from './setup.mjs';
@@ -27,10 +28,17 @@ async function buildWasm() {
   await step('building the WebAssembly module, optimised (a minute or two from scratch)', async () => {
     const parameters = ['build', '--target', 'web', '--release', '--no-pack', '--no-gitignore'];
     parameters.push('--out-dir', pkg, '--out-name', 'morse_smooth', '--', '--features', 'wasm', '--locked');
-    const { code, output } = await runWasmPack(parameters);
+    const { code, output } = await runWasmPack(parameters, { env: { RUSTFLAGS: rustFlags() } });
     if (code !== 0) throw new Problem(`${output}\nThe WebAssembly module does not build.`);
   });
   writeFileSync(stamp, inputs);
+}
+
+/** Keeps the builder's folders out of the module, where panics name their places. */
+function rustFlags() {
+  const cargoHome = process.env.CARGO_HOME || join(homedir(), '.cargo');
+  const remap = [`--remap-path-prefix=${cargoHome}=/cargo`, `--remap-path-prefix=${root}=/morse-smooth`];
+  return [process.env.RUSTFLAGS, ...remap].filter(Boolean).join(' ');
 }
 
 /** Of everything that the module is made from: cargo would notice a change by itself, wasm-opt would not notice that there is none. */
