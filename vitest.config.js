@@ -43,6 +43,7 @@ export default defineConfig({
           name: 'package',
           include: ['tests/package/**/*.test.js'],
           globalSetup: 'tests/package/install.js',
+          testTimeout: 5 * MINUTE,
           fileParallelism: false,
         },
       },

@@ -5,7 +5,8 @@ import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const artifacts = fileURLToPath(new URL('../../artifacts', import.meta.url));
+const inRoot = (path) => fileURLToPath(new URL(`../../${path}`, import.meta.url));
+const artifacts = inRoot('artifacts');
 
 /**
  * Opens a page in a browser of its own: `{ page, problems, close }`. `problems` collects what goes wrong in the page: exceptions,
@@ -20,10 +21,16 @@ export async function openPage(url, { width = 1280, height = 800 } = {}) {
   const problems = [];
   page.on('pageerror', (error) => problems.push(String(error)));
   page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
-  page.on('response', (response) => response.status() >= 400 && problems.push(`${response.status()} ${response.url()}`));
+  page.on(
+    'response',
+    (response) => response.status() >= 400 && problems.push(`${response.status()} ${response.url()}`),
+  );
   await page.goto(url);
   return { page, problems, close: () => browser.close() };
 }
+
+/** Serves the built page: `{ url, close }`. */
+export const servePage = () => serveFolder(inRoot('www/dist'));
 
 /** Keeps a screenshot as artifacts/NAME.png; returns its path. */
 export async function keepScreenshot(page, name) {
@@ -38,7 +45,8 @@ const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/cs
 /** A static server for a folder, which knows few MIME types: `{ url, close }`. */
 export async function serveFolder(folder, headers = {}) {
   const server = createServer((request, response) => {
-    const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
+    const { pathname } = new URL(request.url, 'http://localhost');
+    const path = join(folder, normalize(pathname.endsWith('/') ? `${pathname}index.html` : pathname));
     if (!existsSync(path) || !statSync(path).isFile()) {
       // Browsers ask for an icon that nobody has.
       response.writeHead(path.endsWith('favicon.ico') ? 204 : 404).end();

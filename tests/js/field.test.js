@@ -55,7 +55,11 @@ describe('critical points', () => {
       const mesh = make(shape);
       const chi = mesh.topology.eulerCharacteristic;
       const fields = [1, 2, 3].map((seed) => noise(mesh, seed));
-      fields.push(heights(shape), new Float64Array(mesh.vertexCount), fields[0].map((x) => Math.floor(3 * x)));
+      fields.push(
+        heights(shape),
+        new Float64Array(mesh.vertexCount),
+        fields[0].map((x) => Math.floor(3 * x)),
+      );
       for (const values of fields) {
         const { counts } = mesh.criticalPoints(values);
         expect(counts.indexSum).toBe(chi);

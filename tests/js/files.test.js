@@ -151,7 +151,9 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
       else if (round % 3 === 0) bytes = bytes.slice(0, Math.floor(bytes.length * next()));
       else for (let k = 0; k < 3; k++) bytes[Math.floor(bytes.length * next())] = byte();
       try {
-        const { mesh, fields } = readMesh(bytes, { format: round % 2 ? undefined : ['off', 'ply', 'obj', 'vtk'][round % 4] });
+        const { mesh, fields } = readMesh(bytes, {
+          format: round % 2 ? undefined : ['off', 'ply', 'obj', 'vtk'][round % 4],
+        });
         expect([...mesh.positions()].every(Number.isFinite)).toBe(true);
         expect(Number.isInteger(mesh.topology.eulerCharacteristic)).toBe(true);
         for (const values of Object.values(fields)) expect(values.length).toBe(mesh.vertexCount);

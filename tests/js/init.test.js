@@ -62,7 +62,13 @@ describe('everywhere', () => {
 
   it('has errors that others can make, too', () => {
     const error = new MorseSmoothError('Code', 'message', { vertex: 3 }, { cause: 1 });
-    expect(error).toMatchObject({ name: 'MorseSmoothError', code: 'Code', message: 'message', detail: { vertex: 3 }, cause: 1 });
+    expect(error).toMatchObject({
+      name: 'MorseSmoothError',
+      code: 'Code',
+      message: 'message',
+      detail: { vertex: 3 },
+      cause: 1,
+    });
     expect(String(error)).toBe('MorseSmoothError: message');
   });
 });

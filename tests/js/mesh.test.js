@@ -32,7 +32,13 @@ describe('facts', () => {
     const mesh = make(square(5));
     expect([mesh.vertexCount, mesh.edgeCount, mesh.triangleCount]).toEqual([36, 85, 50]);
     expect(mesh.area).toBeCloseTo(25, 12);
-    expect(mesh.topology).toMatchObject({ eulerCharacteristic: 1, boundaryLoops: 1, closed: false, genus: 0, ...manifold });
+    expect(mesh.topology).toMatchObject({
+      eulerCharacteristic: 1,
+      boundaryLoops: 1,
+      closed: false,
+      genus: 0,
+      ...manifold,
+    });
   });
 
   it('of a Möbius strip', () => {
@@ -42,7 +48,10 @@ describe('facts', () => {
 
   it('of two components', () => {
     const { positions, triangles } = tetrahedron();
-    const both = new TriMesh([...positions, ...positions.map((x) => x + 10)], [...triangles, ...triangles.map((i) => i + 4)]);
+    const both = new TriMesh(
+      [...positions, ...positions.map((x) => x + 10)],
+      [...triangles, ...triangles.map((i) => i + 4)],
+    );
     expect(both.topology).toMatchObject({ eulerCharacteristic: 4, components: 2, genus: 0 });
   });
 
@@ -126,7 +135,13 @@ describe('refused', () => {
     ['a DataView', new DataView(new ArrayBuffer(96)), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['an object like an array', { length: 12 }, triangles, 'InvalidArgument', { argument: 'positions' }],
     ['signed ids', positions, new Int32Array(12), 'InvalidArgument', { argument: 'triangles' }],
-    ['a string among numbers', positions.with(4, '1'), triangles, 'InvalidArgument', { argument: 'positions', index: 4 }],
+    [
+      'a string among numbers',
+      positions.with(4, '1'),
+      triangles,
+      'InvalidArgument',
+      { argument: 'positions', index: 4 },
+    ],
     ['a hole', [0, 0, 0, 1, 0, 0, 0, , 0], [0, 1, 2], 'InvalidArgument', { argument: 'positions', index: 7 }],
     ['null among ids', positions, ids(null), 'InvalidArgument', { argument: 'triangles', index: 11 }],
     ['a negative id', positions, ids(-1), 'IndexOutOfBounds', { triangle: 3, index: -1, vertices: 4 }],

@@ -66,7 +66,8 @@ export function moebius(n = 8) {
   return { positions, triangles };
 }
 
-export const component = (positions, axis) => Float64Array.from({ length: positions.length / 3 }, (_, i) => positions[3 * i + axis]);
+export const component = (positions, axis) =>
+  Float64Array.from({ length: positions.length / 3 }, (_, i) => positions[3 * i + axis]);
 export const heights = ({ positions }) => component(positions, 2);
 
 /** Numbers in [0, 1) that are the same in every run. */

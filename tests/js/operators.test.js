@@ -22,15 +22,18 @@ describe('Laplacian', () => {
     expect(matrix[middle]).toEqual(near([expected])[0]);
   });
 
-  it.each(['cotangent', 'uniform', 'meanValue', 'normalizedCotangent'])('with %s weights has rows that sum to 0', (weights) => {
-    const mesh = make(torus(9, 7));
-    const matrix = dense(mesh.laplacian({ weights }));
-    for (const row of matrix) expect(sum(row)).toBeCloseTo(0, 10);
-    const symmetric = matrix.every((row, i) => row.every((entry, j) => Math.abs(entry - matrix[j][i]) < 1e-12));
-    expect(symmetric).toBe(weights === 'cotangent' || weights === 'uniform');
-    if (weights === 'uniform') expect(matrix[0][0]).toBe(6);
-    if (weights === 'normalizedCotangent') expect(matrix[0][0]).toBeCloseTo(1, 12);
-  });
+  it.each(['cotangent', 'uniform', 'meanValue', 'normalizedCotangent'])(
+    'with %s weights has rows that sum to 0',
+    (weights) => {
+      const mesh = make(torus(9, 7));
+      const matrix = dense(mesh.laplacian({ weights }));
+      for (const row of matrix) expect(sum(row)).toBeCloseTo(0, 10);
+      const symmetric = matrix.every((row, i) => row.every((entry, j) => Math.abs(entry - matrix[j][i]) < 1e-12));
+      expect(symmetric).toBe(weights === 'cotangent' || weights === 'uniform');
+      if (weights === 'uniform') expect(matrix[0][0]).toBe(6);
+      if (weights === 'normalizedCotangent') expect(matrix[0][0]).toBeCloseTo(1, 12);
+    },
+  );
 
   it('is a matrix by columns, with ascending rows', () => {
     const { rows, columns, columnPointers, rowIndices, values } = make(octahedron()).laplacian();

@@ -129,7 +129,9 @@ describe('tikhonov', () => {
     const options = { epsilon: 0.3, metric: 'lumped', massScale: 'raw' };
     const { values } = new Smoother(mesh, { weights: 'uniform' }).tikhonov(f, options);
     expect(smooth(mesh, f, { ...options, weights: 'uniform', method: 'tikhonov' }).values).toEqual(values);
-    expect(smooth(mesh, Array.from(f), { epsilon: 1 }).values).toEqual(new Smoother(mesh).tikhonov(f, { epsilon: 1 }).values);
+    expect(smooth(mesh, Array.from(f), { epsilon: 1 }).values).toEqual(
+      new Smoother(mesh).tikhonov(f, { epsilon: 1 }).values,
+    );
   });
 
   it('leaves the input alone and returns what is new each time', () => {
@@ -233,10 +235,12 @@ describe('refused', () => {
     const epsilon = 0.1;
     expectError(call(), 'InvalidOption', { option: 'epsilon' });
     expectError(call({}), 'InvalidOption', { option: 'epsilon' });
-    for (const bad of [0, -1, NaN, Infinity, '1']) expectError(call({ epsilon: bad }), 'InvalidOption', { option: 'epsilon' });
+    for (const bad of [0, -1, NaN, Infinity, '1'])
+      expectError(call({ epsilon: bad }), 'InvalidOption', { option: 'epsilon' });
     expectError(call({ epsilon, metric: 'euclid' }), 'InvalidOption', { option: 'metric' });
     expectError(call({ epsilon, massScale: 'area' }), 'InvalidOption', { option: 'massScale' });
-    for (const channels of [0, -1, 1.5, '2']) expectError(call({ epsilon, channels }), 'InvalidOption', { option: 'channels' });
+    for (const channels of [0, -1, 1.5, '2'])
+      expectError(call({ epsilon, channels }), 'InvalidOption', { option: 'channels' });
     expectError(call({ epsilon, metric: 'identity', massScale: 'raw' }), 'InapplicableOption', { option: 'massScale' });
     expectError(call({ epsilon, weights: 'uniform' }), 'UnknownOption', { option: 'weights' });
     expectError(call({ epsilom: 1 }), 'UnknownOption', { option: 'epsilom' });
@@ -260,12 +264,21 @@ describe('refused', () => {
 
   it('what this version does not build', () => {
     const mesh = make(tetrahedron());
-    const unsupported = [{ operator: 'fem' }, { precision: 'single' }, { bounds: true }, { weights: 'intrinsicDelaunay' }];
+    const unsupported = [
+      { operator: 'fem' },
+      { precision: 'single' },
+      { bounds: true },
+      { weights: 'intrinsicDelaunay' },
+    ];
     for (const options of unsupported) {
       expectError(() => new Smoother(mesh, options), 'UnsupportedOption');
       expectError(() => smooth(mesh, f, { epsilon: 1, ...options }), 'UnsupportedOption');
     }
-    for (const options of [{ epsilon: 'auto' }, { epsilon: 1, constraints: [0] }, { epsilon: 1, method: 'interpolate' }]) {
+    for (const options of [
+      { epsilon: 'auto' },
+      { epsilon: 1, constraints: [0] },
+      { epsilon: 1, method: 'interpolate' },
+    ]) {
       expectError(() => smooth(mesh, f, options), 'UnsupportedOption');
     }
   });

@@ -16,8 +16,10 @@ export default function setup({ provide }) {
     return execFileSync(command, all, { cwd, encoding: 'utf8' });
   };
   // The files are built; --ignore-scripts leaves out what a publication would do first.
-  const [{ filename, files }] = JSON.parse(run(root, 'pack', '--ignore-scripts', '--json', '--pack-destination', folder));
-  writeFileSync(join(folder, 'package.json'), JSON.stringify({ private: true }));
+  const [{ filename, files }] = JSON.parse(
+    run(root, 'pack', '--ignore-scripts', '--json', '--pack-destination', folder),
+  );
+  writeFileSync(join(folder, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
   run(folder, 'install', '--no-audit', '--no-fund', '--offline', join(folder, filename));
   cpSync(apps, folder, { recursive: true });
   provide('installed', folder);

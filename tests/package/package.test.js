@@ -45,7 +45,9 @@ describe('the package', () => {
     const [command, parameters] = npm('publish', '--dry-run', '--ignore-scripts', '--tag', 'latest');
     const { status, stderr } = spawnSync(command, parameters, { cwd: root, encoding: 'utf8' });
     // About the settings of whoever runs this, not about the package.
-    const warnings = stderr.split('\n').filter((line) => /^npm (warn|error)/i.test(line) && !/ user config /.test(line));
+    const warnings = stderr
+      .split('\n')
+      .filter((line) => /^npm (warn|error)/i.test(line) && !/ user config | logged in /.test(line));
     expect(warnings).toEqual([]);
     expect(status).toBe(0);
   });
@@ -55,7 +57,9 @@ describe('the package', () => {
     expect(manifest.dependencies ?? manifest.optionalDependencies ?? manifest.peerDependencies).toBeUndefined();
     const installScripts = ['preinstall', 'install', 'postinstall', 'prepare'];
     expect(Object.keys(manifest.scripts).filter((name) => installScripts.includes(name))).toEqual([]);
-    expect(readdirSync(join(installed, 'node_modules')).filter((name) => !name.startsWith('.'))).toEqual(['morse-smooth']);
+    expect(readdirSync(join(installed, 'node_modules')).filter((name) => !name.startsWith('.'))).toEqual([
+      'morse-smooth',
+    ]);
   });
 
   it('has no Node module, await at the top or eval in what browsers load', () => {
@@ -68,20 +72,31 @@ describe('the package', () => {
   it('says nothing of the machine that built it', () => {
     for (const name of readdirSync(dist)) {
       const content = readFileSync(join(dist, name), 'latin1');
-      expect(content.match(/[\w./-]*(\.cargo|\/home|\/root|\/Users)\/[\w./-]*/)?.[0], name).toBeUndefined();
+      expect(content.match(/(\.cargo|\/home|\/root|\/Users)\/[\w./-]{0,80}/)?.[0], name).toBeUndefined();
     }
   });
 });
 
 describe('Node', () => {
-  const run = (...parameters) => JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
+  const run = (...parameters) =>
+    JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
 
   it('imports it', () => {
     expect(run('import.mjs')).toEqual({ ...expected, oneInstance: true });
   });
 
   it('requires it', () => {
-    const names = ['MorseSmoothError', 'Smoother', 'TriMesh', 'default', 'readField', 'readMesh', 'smooth', 'version', 'writeMesh'];
+    const names = [
+      'MorseSmoothError',
+      'Smoother',
+      'TriMesh',
+      'default',
+      'readField',
+      'readMesh',
+      'smooth',
+      'version',
+      'writeMesh',
+    ];
     expect(run('require.cjs')).toEqual({ ...expected, keys: names });
   });
 
@@ -90,7 +105,8 @@ describe('Node', () => {
   });
 
   it('finds the wasm file and package.json under their own names', () => {
-    const script = "console.log(JSON.stringify(['morse_smooth_bg.wasm', 'package.json'].map((x) => require.resolve('morse-smooth/' + x))))";
+    const script =
+      "console.log(JSON.stringify(['morse_smooth_bg.wasm', 'package.json'].map((x) => require.resolve('morse-smooth/' + x))))";
     expect(run('-e', script)).toEqual([join(dist, 'morse_smooth_bg.wasm'), join(dist, '..', 'package.json')]);
   });
 });

@@ -1,5 +1,14 @@
 // Compiled, never run: the whole public API as a user writes it, and what must not compile.
-import init, { MorseSmoothError, Smoother, TriMesh, readField, readMesh, smooth, version, writeMesh } from 'morse-smooth';
+import init, {
+  MorseSmoothError,
+  Smoother,
+  TriMesh,
+  readField,
+  readMesh,
+  smooth,
+  version,
+  writeMesh,
+} from 'morse-smooth';
 import type * as api from 'morse-smooth';
 import initInline, { TriMesh as InlineTriMesh } from 'morse-smooth/inline';
 
@@ -76,7 +85,12 @@ same<ReturnType<TriMesh['triangles']>, Uint32Array>(true);
 
 // -------------------------------------------------------------------------------------------------------- field analysis
 const link: api.Link = 'skip';
-const points: api.CriticalPoints = mesh.criticalPoints(heat, { delta: 0.1, deltaIs: 'absolute', link, rule: 'literal' });
+const points: api.CriticalPoints = mesh.criticalPoints(heat, {
+  delta: 0.1,
+  deltaIs: 'absolute',
+  link,
+  rule: 'literal',
+});
 same<api.CriticalPoints['kinds'], Int8Array>(true);
 const { vertices, kinds, multiplicities, onBoundary, counts } = points;
 const { minima, maxima, saddles, indexSum } = counts;
@@ -111,7 +125,12 @@ const smoother = new Smoother(mesh, {
   solver: 'cg',
   onProgress: ({ phase, fraction }) => console.log(`${phase}: ${Math.round(100 * fraction)} %`),
 });
-const result: api.Smoothed = smoother.tikhonov(heat, { epsilon: 0.05, metric: 'lumped', massScale: 'raw', channels: 3 });
+const result: api.Smoothed = smoother.tikhonov(heat, {
+  epsilon: 0.05,
+  metric: 'lumped',
+  massScale: 'raw',
+  channels: 3,
+});
 const { report, reports } = result;
 same<typeof reports, api.SmoothReport[]>(true);
 const { method, equation, epsilon, constraintCount, before, after, lInfinity, l2, metricNorm } = report;
@@ -129,7 +148,12 @@ new Smoother(mesh, { precision: 'single' });
 // @ts-expect-error not built yet
 smoother.interpolate(heat, { constraints: [0] });
 
-const short: api.Smoothed = smooth(mesh, heat, { epsilon: 1, method: 'tikhonov', weights: 'cotangent', solver: 'cholesky' });
+const short: api.Smoothed = smooth(mesh, heat, {
+  epsilon: 1,
+  method: 'tikhonov',
+  weights: 'cotangent',
+  solver: 'cholesky',
+});
 // @ts-expect-error not built yet
 smooth(mesh, heat, { epsilon: 'auto' });
 // @ts-expect-error ε has no default
@@ -160,10 +184,54 @@ try {
 const remade: Error = new MorseSmoothError('NonFiniteValue', 'the value at vertex 3 is not finite', { vertex: 3 });
 
 export const used = [
-  ...[done, fields, bytes, genus, handles, components, boundaryLoops, orientable, nonManifoldEdges, nonManifoldVertices],
-  ...[isolatedVertices, degenerateTriangles, vertices, kinds, multiplicities, onBoundary, minima, maxima, saddles, polylines],
-  ...[coordinates, offsets, levels, closedLines, edges, parameters, sobolev, laplacianNorm, rows, columns, columnPointers],
+  ...[
+    done,
+    fields,
+    bytes,
+    genus,
+    handles,
+    components,
+    boundaryLoops,
+    orientable,
+    nonManifoldEdges,
+    nonManifoldVertices,
+  ],
+  ...[
+    isolatedVertices,
+    degenerateTriangles,
+    vertices,
+    kinds,
+    multiplicities,
+    onBoundary,
+    minima,
+    maxima,
+    saddles,
+    polylines,
+  ],
+  ...[
+    coordinates,
+    offsets,
+    levels,
+    closedLines,
+    edges,
+    parameters,
+    sobolev,
+    laplacianNorm,
+    rows,
+    columns,
+    columnPointers,
+  ],
   ...[rowIndices, values, mass, method, equation, constraintCount, after, lInfinity, l2, metricNorm, sobolevBefore],
-  ...[sobolevAfter, preserved, freeExtrema, perturbationFactor, route, unknowns, factorNonzeros, refinementSteps, iterations],
+  ...[
+    sobolevAfter,
+    preserved,
+    freeExtrema,
+    perturbationFactor,
+    route,
+    unknowns,
+    factorNonzeros,
+    refinementSteps,
+    iterations,
+  ],
   ...[short, remade],
 ];

@@ -4,4 +4,6 @@ import { use } from './use.js';
 
 await init();
 const required = createRequire(import.meta.url)('morse-smooth');
-console.log(JSON.stringify({ ...use(api), oneInstance: required.TriMesh === api.TriMesh && required.default === init }));
+console.log(
+  JSON.stringify({ ...use(api), oneInstance: required.TriMesh === api.TriMesh && required.default === init }),
+);
