@@ -14,12 +14,10 @@ const METRICS = ['identity', 'mass'];
 const RELATIVE_FACTS = 1e-9;
 const RELATIVE_SMOOTHED = 1e-7;
 
-describe.skipIf(existsSync(reference))('reference data', () => {
-  console.warn(
-    `\nThe suite of the reference data did NOT run: there is no ${reference} (MORSE_SMOOTH_DATA can name it).\n`,
-  );
-  it.skip(`not run: there is no ${reference}`, () => {});
-});
+if (!existsSync(reference)) {
+  console.warn(`\nThe suite of the reference data did NOT run: there is no ${reference} (MORSE_SMOOTH_DATA can name it).\n`);
+  it.skip(`reference data: not run, there is no ${reference}`, () => {});
+}
 
 function near(value, expected, relative, what) {
   expect(Math.abs(value - expected), `${what}: ${value} instead of ${expected}`).toBeLessThanOrEqual(

@@ -47,7 +47,7 @@ describe('the package', () => {
     // About the settings of whoever runs this, not about the package.
     const warnings = stderr
       .split('\n')
-      .filter((line) => /^npm (warn|error)/i.test(line) && !/ user config | logged in /.test(line));
+      .filter((line) => /^npm (warn|error)/i.test(line) && !/ (user|env) config | logged in /.test(line));
     expect(warnings).toEqual([]);
     expect(status).toBe(0);
   });
