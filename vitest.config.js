@@ -12,14 +12,14 @@ export default defineConfig({
     maxWorkers: 2,
     testTimeout: MINUTE,
     hookTimeout: 5 * MINUTE,
+    // The built files, as Node itself loads them.
+    server: { deps: { external: [/\/dist\//] } },
     projects: [
       {
         extends: true,
         test: {
           name: 'node',
           include: ['tests/js/**/*.test.js'],
-          // The built files, as Node itself loads them.
-          server: { deps: { external: [/\/dist\//] } },
         },
       },
       {

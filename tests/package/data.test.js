@@ -15,7 +15,9 @@ const RELATIVE_FACTS = 1e-9;
 const RELATIVE_SMOOTHED = 1e-7;
 
 if (!existsSync(reference)) {
-  console.warn(`\nThe suite of the reference data did NOT run: there is no ${reference} (MORSE_SMOOTH_DATA can name it).\n`);
+  console.warn(
+    `\nThe suite of the reference data did NOT run: there is no ${reference} (MORSE_SMOOTH_DATA can name it).\n`,
+  );
   it.skip(`reference data: not run, there is no ${reference}`, () => {});
 }
 

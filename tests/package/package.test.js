@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
 import { npm } from '../../scripts/lib/run.mjs';
-import { openPage, serveFolder } from '../browser/harness.js';
+import { openPage, serveFolder } from './browser.js';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const installed = inject('installed');

@@ -1,23 +1,16 @@
-// A page in Chromium, for tests: opened, watched, closed.
-import { createReadStream, existsSync, mkdirSync, statSync } from 'node:fs';
+// What the tests need of browsers and servers.
+import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
-
-const inRoot = (path) => fileURLToPath(new URL(`../../${path}`, import.meta.url));
-const artifacts = inRoot('artifacts');
 
 /**
  * Opens a page in a browser of its own: `{ page, problems, close }`. `problems` collects what goes wrong in the page: exceptions,
- * errors in the console, failed requests. WebGL works, drawn by the processor.
+ * errors in the console, failed requests.
  */
-export async function openPage(url, { width = 1280, height = 800 } = {}) {
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROME_PATH,
-    args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
-  });
-  const page = await browser.newPage({ viewport: { width, height } });
+export async function openPage(url) {
+  const browser = await chromium.launch({ executablePath: process.env.CHROME_PATH, args: ['--no-sandbox'] });
+  const page = await browser.newPage();
   const problems = [];
   page.on('pageerror', (error) => problems.push(String(error)));
   page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
@@ -27,17 +20,6 @@ export async function openPage(url, { width = 1280, height = 800 } = {}) {
   );
   await page.goto(url);
   return { page, problems, close: () => browser.close() };
-}
-
-/** Serves the built page: `{ url, close }`. */
-export const servePage = () => serveFolder(inRoot('www/dist'));
-
-/** Keeps a screenshot as artifacts/NAME.png; returns its path. */
-export async function keepScreenshot(page, name) {
-  mkdirSync(artifacts, { recursive: true });
-  const path = join(artifacts, `${name}.png`);
-  await page.screenshot({ path });
-  return path;
 }
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' };
