@@ -12,14 +12,14 @@ export default defineConfig({
     maxWorkers: 2,
     testTimeout: MINUTE,
     hookTimeout: 5 * MINUTE,
+    // The built files, as Node itself loads them.
+    server: { deps: { external: [/\/dist\//] } },
     projects: [
       {
         extends: true,
         test: {
           name: 'node',
           include: ['tests/js/**/*.test.js'],
-          // The built files, as Node itself loads them.
-          server: { deps: { external: [/\/dist\//] } },
         },
       },
       {
@@ -37,7 +37,16 @@ export default defineConfig({
         },
       },
       { extends: true, test: { name: 'page', include: ['tests/browser/**/*.test.{js,ts}'], fileParallelism: false } },
-      { extends: true, test: { name: 'package', include: ['tests/package/**/*.test.js'], fileParallelism: false } },
+      {
+        extends: true,
+        test: {
+          name: 'package',
+          include: ['tests/package/**/*.test.js'],
+          globalSetup: 'tests/package/install.js',
+          testTimeout: 5 * MINUTE,
+          fileParallelism: false,
+        },
+      },
     ],
   },
 });

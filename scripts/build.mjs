@@ -1,11 +1,12 @@
 // npm run build: the wasm module into pkg/, the npm package's files into dist/.
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { homedir } from 'node:os';
+import { dirname, join, relative } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { withLock } from './lib/lock.mjs';
 import { Problem, main, step } from './lib/log.mjs';
-import { dist, inRoot, pkg } from './lib/paths.mjs';
+import { dist, inRoot, pkg, root } from './lib/paths.mjs';
 import { ask } from './lib/run.mjs';
 import { runWasmPack } from './lib/wasm-pack.mjs';
 import { setUp } from './setup.mjs';
@@ -15,31 +16,53 @@ const WASM = 'morse_smooth_bg.wasm';
 /** Builds what is out of date. The set-up must have been done. */
 export function build() {
   return withLock(inRoot('node_modules', '.build.lock'), async () => {
-    await buildWasm();
-    await step('bundling the JavaScript into dist/', bundle);
+    await unlessCurrent(join(pkg, WASM), wasmInputs(), () =>
+      step('building the WebAssembly module, optimised (a minute or two from scratch)', buildWasm),
+    );
+    await unlessCurrent(join(dist, WASM), bundleInputs(), () => step('bundling the JavaScript into dist/', bundle));
   });
+}
+
+/** Makes `output`, unless it is there and was made from these very files. */
+async function unlessCurrent(output, inputs, work) {
+  const stamp = join(pkg, `${relative(root, dirname(output))}.sha256`);
+  const hash = hashOf(inputs);
+  if (existsSync(output) && existsSync(stamp) && readFileSync(stamp, 'utf8') === hash) return;
+  rmSync(stamp, { force: true });
+  await work();
+  writeFileSync(stamp, hash);
+}
+
+/** Everything that the module is made from: cargo would notice a change, but wasm-opt would not notice that there is none. */
+function wasmInputs() {
+  const sources = readdirSync(inRoot('src'), { recursive: true }).filter((name) => name.endsWith('.rs'));
+  const others = ['Cargo.toml', 'Cargo.lock', 'package-lock.json', join('scripts', 'build.mjs')];
+  return [...others, ...sources.map((name) => join('src', name))];
+}
+
+function bundleInputs() {
+  const sources = readdirSync(inRoot('src', 'js')).map((name) => join('src', 'js', name));
+  return ['package.json', join('pkg', WASM), join('scripts', 'build.mjs'), ...sources];
+}
+
+function hashOf(files) {
+  const hash = createHash('sha256').update(ask('rustc', '--version') ?? '');
+  for (const file of files.sort()) hash.update(`\0${file}\0`).update(readFileSync(inRoot(file)));
+  return hash.digest('hex');
 }
 
 async function buildWasm() {
-  const stamp = join(pkg, 'inputs.sha256');
-  const inputs = hashOfInputs();
-  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === inputs) return;
-  await step('building the WebAssembly module, optimised (a minute or two from scratch)', async () => {
-    const parameters = ['build', '--target', 'web', '--release', '--no-pack', '--no-gitignore'];
-    parameters.push('--out-dir', pkg, '--out-name', 'morse_smooth', '--', '--features', 'wasm', '--locked');
-    const { code, output } = await runWasmPack(parameters);
-    if (code !== 0) throw new Problem(`${output}\nThe WebAssembly module does not build.`);
-  });
-  writeFileSync(stamp, inputs);
+  const parameters = ['build', '--target', 'web', '--release', '--no-pack', '--no-gitignore'];
+  parameters.push('--out-dir', pkg, '--out-name', 'morse_smooth', '--', '--features', 'wasm', '--locked');
+  const { code, output } = await runWasmPack(parameters, { env: { RUSTFLAGS: rustFlags() } });
+  if (code !== 0) throw new Problem(`${output}\nThe WebAssembly module does not build.`);
 }
 
-/** Of everything that the module is made from: cargo would notice a change by itself, wasm-opt would not notice that there is none. */
-function hashOfInputs() {
-  const sources = readdirSync(inRoot('src'), { recursive: true }).filter((name) => name.endsWith('.rs'));
-  const files = ['Cargo.toml', 'Cargo.lock', 'package-lock.json', ...sources.sort().map((name) => join('src', name))];
-  const hash = createHash('sha256').update(ask('rustc', '--version') ?? '');
-  for (const file of files) hash.update(`\0${file}\0`).update(readFileSync(inRoot(file)));
-  return hash.digest('hex');
+/** Keeps the builder's folders out of the module, where panics name their places. */
+function rustFlags() {
+  const cargoHome = process.env.CARGO_HOME || join(homedir(), '.cargo');
+  const remap = [`--remap-path-prefix=${cargoHome}=/cargo`, `--remap-path-prefix=${root}=/morse-smooth`];
+  return [process.env.RUSTFLAGS, ...remap].filter(Boolean).join(' ');
 }
 
 /** Two bundles with the glue in them, one for browsers and one for Node; the rest is copied as it is. */

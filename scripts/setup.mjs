@@ -24,7 +24,9 @@ export async function setUp() {
 
 function checkNode() {
   if (!atLeast(versionIn(process.versions.node), NODE)) {
-    throw new Problem(`Node ${NODE.join('.')} or newer is needed; this is ${process.versions.node}. Get one from https://nodejs.org`);
+    throw new Problem(
+      `Node ${NODE.join('.')} or newer is needed; this is ${process.versions.node}. Get one from https://nodejs.org`,
+    );
   }
 }
 
@@ -32,10 +34,14 @@ function checkRust() {
   const want = /^rust-version = "(.*)"$/m.exec(readFileSync(inRoot('Cargo.toml'), 'utf8'))[1];
   const have = ask('rustc', '--version');
   if (have === null || ask('cargo', '--version') === null) {
-    throw new Problem(`Rust ${want} or newer is needed. Get it from https://rustup.rs, open a new terminal and run this again.`);
+    throw new Problem(
+      `Rust ${want} or newer is needed. Get it from https://rustup.rs, open a new terminal and run this again.`,
+    );
   }
   if (!atLeast(versionIn(have), versionIn(want))) {
-    throw new Problem(`Rust ${want} or newer is needed; this is ${versionIn(have).join('.')}. Run \`rustup update stable\`.`);
+    throw new Problem(
+      `Rust ${want} or newer is needed; this is ${versionIn(have).join('.')}. Run \`rustup update stable\`.`,
+    );
   }
   return versionIn(have).join('.');
 }
@@ -55,7 +61,8 @@ function packagesAreCurrent() {
   const wanted = JSON.parse(readFileSync(inRoot('package-lock.json'), 'utf8')).packages;
   const present = JSON.parse(readFileSync(installed, 'utf8')).packages;
   return Object.entries(wanted).every(
-    ([path, { version, optional }]) => path === '' || (optional && !present[path]) || present[path]?.version === version,
+    ([path, { version, optional }]) =>
+      path === '' || (optional && !present[path]) || present[path]?.version === version,
   );
 }
 
@@ -65,5 +72,7 @@ async function addTarget() {
   if (folder !== null && existsSync(folder)) return;
   const advice = `Rust's target ${target} is needed. Install it the way Rust was installed (with rustup: rustup target add ${target}).`;
   if (ask('rustup', '--version') === null) throw new Problem(advice);
-  await step(`adding Rust's target ${target} (a small download)`, () => must('rustup', ['target', 'add', target], advice));
+  await step(`adding Rust's target ${target} (a small download)`, () =>
+    must('rustup', ['target', 'add', target], advice),
+  );
 }

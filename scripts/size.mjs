@@ -15,7 +15,9 @@ export function checkSize() {
   const names = readdirSync(dist).filter((name) => /\.(wasm|js|cjs|mjs)$/.test(name));
   for (const name of names.sort()) {
     const bytes = readFileSync(join(dist, name));
-    const [raw, compressed] = [bytes.length, brotliCompressSync(bytes).length].map((size) => `${(size / 1000).toFixed(1)} kB`);
+    const [raw, compressed] = [bytes.length, brotliCompressSync(bytes).length].map(
+      (size) => `${(size / 1000).toFixed(1)} kB`,
+    );
     console.log(`${name.padEnd(24)}${raw.padStart(12)}${compressed.padStart(12)} brotli`);
   }
   const core = brotliCompressSync(readFileSync(join(dist, CORE))).length;

@@ -48,7 +48,12 @@ export async function must(command, parameters, sentence, options) {
 
 /** What a program prints, or null where it is missing or fails: for asking after versions. */
 export function ask(command, ...parameters) {
-  const { status, stdout } = spawnSync(command, parameters, { cwd: root, env: environment, encoding: 'utf8', timeout: 30_000 });
+  const { status, stdout } = spawnSync(command, parameters, {
+    cwd: root,
+    env: environment,
+    encoding: 'utf8',
+    timeout: 30_000,
+  });
   return status === 0 ? stdout.trim() : null;
 }
 

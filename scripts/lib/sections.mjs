@@ -75,8 +75,11 @@ export async function runVitest(project, env) {
   rmSync(report, { force: true });
   const { code } = await execute(
     process.execPath,
-    [inRoot('node_modules', 'vitest', 'vitest.mjs'), 'run', '--project', project]
-      .concat(['--reporter=default', '--reporter=json', `--outputFile.json=${report}`]),
+    [inRoot('node_modules', 'vitest', 'vitest.mjs'), 'run', '--project', project].concat([
+      '--reporter=default',
+      '--reporter=json',
+      `--outputFile.json=${report}`,
+    ]),
     { show: true, env },
   );
   const { numPassedTests = 0, numFailedTests = 0 } = existsSync(report) ? JSON.parse(readFileSync(report, 'utf8')) : {};

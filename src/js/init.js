@@ -34,7 +34,10 @@ export function sourceOf(options) {
   }
   const { wasm } = options;
   if (wasm === undefined || isAddress(wasm) || isResponse(wasm) || isCode(wasm)) return wasm;
-  throw new MorseSmoothError('InvalidOption', `option \`wasm\` takes ${SOURCES}`, { option: 'wasm', expected: SOURCES });
+  throw new MorseSmoothError('InvalidOption', `option \`wasm\` takes ${SOURCES}`, {
+    option: 'wasm',
+    expected: SOURCES,
+  });
 }
 
 async function load(source) {

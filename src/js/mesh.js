@@ -27,7 +27,10 @@ export class TriMesh {
     const numbers = toNumbers(positions, 'positions');
     const ids = toTriangles(triangles, Math.floor(numbers.length / 3));
     const settings = toOptions(options);
-    this.#handle = new Handle('TriMesh', attempt(() => new RawTriMesh(numbers, ids, settings)));
+    this.#handle = new Handle(
+      'TriMesh',
+      attempt(() => new RawTriMesh(numbers, ids, settings)),
+    );
   }
 
   get vertexCount() {

@@ -44,10 +44,11 @@ export class MorseSmoothError extends Error {
   /**
    * Names the failure for programs; stays the same while messages improve.
    *
-   * - files: `EmptyFile`, `UnknownFormat`, `UnsupportedFormat`, `Truncated`, `UnexpectedEnd`, `InvalidNumber`, `InvalidSyntax`,
-   *   `MissingElement`, `FaceIndexOutOfBounds`, `UnknownColumn`, `TooLarge`
-   * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `NonFinitePosition`, `PositionOverflow`,
-   *   `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
+   * - files: `EmptyFile`, `UnknownFormat`, `UnsupportedFormat`, `UnsupportedFeature`, `Truncated`, `UnexpectedEnd`,
+   *   `InvalidNumber`, `InvalidSyntax`, `MissingElement`, `FaceIndexOutOfBounds`, `UnknownColumn`, `TooLarge`,
+   *   `FieldsNotSupported`, `BinaryNotSupported`
+   * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`,
+   *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
    * - fields: `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`
    * - systems: `NotPositiveDefinite`, `NotConverged`, `OutOfMemory`
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
@@ -104,14 +105,14 @@ export function readMesh(bytes: Uint8Array, options?: ReadMeshOptions): MeshFile
 
 /** What {@link readField} takes. */
 export interface ReadFieldOptions {
-  /** Default: `"csv"` where the first line has separators, else `"txt"`. */
+  /** Default: told from the content. */
   format?: 'txt' | 'csv';
-  /** Of a table: the name in its first line, or the number from 0. Default: the first column. */
+  /** Of a table: its name in the first line, or its number from 0. Default: the first column of numbers. */
   column?: string | number;
 }
 
 /**
- * Reads a field from text: a number on each line, or a column of a table.
+ * Reads a field from text: numbers with blanks or line ends between them, or a column of a table with commas, semicolons or tabs.
  *
  * @throws `InvalidNumber` with the `line`; `UnknownColumn`; `EmptyFile`
  */
@@ -120,9 +121,9 @@ export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float6
 /** What {@link writeMesh} takes. */
 export interface WriteMeshOptions {
   format: MeshFormat;
-  /** Fields to write along, by name; PLY and VTK have room for them (otherwise `InapplicableOption`). */
+  /** Fields to write along, by name; PLY and VTK have room for them (otherwise `FieldsNotSupported`). */
   fields?: Record<string, Numbers>;
-  /** PLY and VTK can be binary. Default `false`. */
+  /** PLY and VTK can be binary (otherwise `BinaryNotSupported`). Default `false`. */
   binary?: boolean;
 }
 

@@ -1,0 +1,193 @@
+import init, { TriMesh, readField, readMesh, writeMesh } from 'morse-smooth';
+import { beforeAll, describe, expect, it } from 'vitest';
+import { expectError } from './errors.js';
+import { random, square, tetrahedron, text } from './meshes.js';
+
+beforeAll(() => init());
+
+const make = ({ positions, triangles }) => new TriMesh(positions, triangles);
+const OFF = 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n';
+const PLY = (faces = '4 0 1 2 3') => `ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+property double heat
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0 0.1
+1 0 0 0.2
+1 1 0 0.3
+0 1 0 -0.1234567890123456
+${faces}
+`;
+
+describe('reading', () => {
+  it('OFF, recognised by its content', () => {
+    const { mesh, fields, format, warnings } = readMesh(text(OFF));
+    expect(format).toBe('off');
+    expect(fields).toEqual({});
+    expect(warnings).toEqual([]);
+    expect(mesh).toBeInstanceOf(TriMesh);
+    expect([...mesh.triangles()]).toEqual([0, 1, 2, 0, 2, 3]);
+    expect(mesh.area).toBe(1);
+  });
+
+  it('OBJ, recognised by its name or by option', () => {
+    const bytes = text('# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n');
+    for (const options of [{ format: 'obj' }, { fileName: 'C:\\meshes\\Square.OBJ' }, undefined]) {
+      const { mesh, format } = readMesh(bytes, options);
+      expect(format).toBe('obj');
+      expect([mesh.vertexCount, mesh.triangleCount, mesh.area]).toEqual([4, 2, 1]);
+    }
+  });
+
+  it('PLY with a field, in the precision of its text, and a polygon', () => {
+    const { mesh, fields, format } = readMesh(text(PLY()));
+    expect(format).toBe('ply');
+    expect(mesh.triangleCount).toBe(2);
+    expect(Object.keys(fields)).toEqual(['heat']);
+    expect(fields.heat).toEqual(Float64Array.of(0.1, 0.2, 0.3, -0.1234567890123456));
+  });
+
+  it('a Node Buffer or a part of a larger array', () => {
+    const whole = text(`xxxx${OFF}yyyy`);
+    expect(readMesh(whole.subarray(4, 4 + OFF.length)).mesh.vertexCount).toBe(4);
+    if (typeof Buffer !== 'undefined') expect(readMesh(Buffer.from(OFF)).mesh.vertexCount).toBe(4);
+  });
+
+  it('a field: numbers by line, or a column of a table', () => {
+    expect(readField(text('1\n-2.5e3\n0.1\n'))).toEqual(Float64Array.of(1, -2500, 0.1));
+    const table = text('id,heat,cold\n0,1.5,9\n1,2.5,8\n');
+    expect([...readField(table, { column: 'heat' })]).toEqual([1.5, 2.5]);
+    expect([...readField(table, { format: 'csv', column: 2 })]).toEqual([9, 8]);
+  });
+});
+
+describe('writing', () => {
+  const shape = square(3);
+  const positions = shape.positions.map((x, k) => x / 3 + (k % 3 === 2 ? Math.PI : 0));
+  const heat = Array.from({ length: 16 }, random(1));
+  const mesh = () => new TriMesh(positions, shape.triangles);
+
+  it.each([
+    ['off', false, false],
+    ['obj', false, false],
+    ['ply', false, true],
+    ['ply', true, true],
+    ['vtk', false, true],
+    ['vtk', true, true],
+  ])('%s, binary %s, gives back what went in, to the last bit', (format, binary, takesFields) => {
+    const options = takesFields ? { format, binary, fields: { heat, cold: Float32Array.from(heat) } } : { format };
+    const bytes = writeMesh(mesh(), options);
+    expect(bytes).toBeInstanceOf(Uint8Array);
+    const back = readMesh(bytes, { fileName: `mesh.${format}` });
+    expect(back.format).toBe(format);
+    expect([...back.mesh.positions()]).toEqual(positions);
+    expect([...back.mesh.triangles()]).toEqual([...mesh().triangles()]);
+    if (takesFields) {
+      expect([...back.fields.heat]).toEqual(heat);
+      expect([...back.fields.cold]).toEqual([...Float32Array.from(heat)]);
+    }
+  });
+
+  it('refuses what does not fit', () => {
+    const write = (options) => () => writeMesh(mesh(), options);
+    expectError(write(), 'InvalidOption', { option: 'format' });
+    expectError(write({ format: 'xyz' }), 'InvalidOption', { option: 'format' });
+    expectError(write({ format: 'stl' }), 'UnsupportedFormat', { format: 'stl' });
+    expectError(write({ format: 'ply', bin: true }), 'UnknownOption', { option: 'bin' });
+    expectError(write({ format: 'off', fields: { heat } }), 'FieldsNotSupported', { format: 'off' });
+    expectError(write({ format: 'off', binary: true }), 'BinaryNotSupported', { format: 'off' });
+    expectError(write({ format: 'ply', fields: [heat] }), 'InvalidArgument', { argument: 'fields' });
+    expectError(write({ format: 'ply', fields: { heat: 'x' } }), 'InvalidArgument', { argument: 'fields.heat' });
+    expectError(write({ format: 'ply', fields: { heat: [1] } }), 'LengthMismatch', { expected: 16, actual: 1 });
+    expectError(() => writeMesh({}, { format: 'ply' }), 'InvalidArgument', { argument: 'mesh' });
+    const freed = mesh();
+    freed.free();
+    expectError(() => writeMesh(freed, { format: 'ply' }), 'UseAfterFree');
+    expect(write({ format: 'ply' })().length).toBeGreaterThan(100);
+  });
+});
+
+describe('malformed input is refused, and the next call works', () => {
+  const binaryHeader = (vertices) =>
+    text(`ply\nformat binary_little_endian 1.0\nelement vertex ${vertices}\nproperty float x\nproperty float y\nproperty float z
+element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
+
+  it.each([
+    ['no bytes', '', undefined, 'EmptyFile', {}],
+    ['no known format', 'hello, world', undefined, 'UnknownFormat', {}],
+    ['a format that is not built', 'solid x', { format: 'stl' }, 'UnsupportedFormat', { format: 'stl' }],
+    ['a cut off text', OFF.slice(0, 30), undefined, 'Truncated', { expected: 27, available: 20 }],
+    ['a word among numbers', OFF.replace('1 1 0', '1 one 0'), undefined, 'InvalidNumber', { line: 5 }],
+    ['an index out of range', OFF.replace('3 0 2 3', '3 0 2 4'), undefined, 'FaceIndexOutOfBounds', { index: 4 }],
+    ['a negative index', PLY('3 0 1 -2'), undefined, 'FaceIndexOutOfBounds', { index: -2 }],
+    ['a position that is not a number', OFF.replace('1 1 0', '1 nan 0'), undefined, 'NonFinitePosition', { vertex: 2 }],
+    ['no faces', 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n', undefined, 'MissingElement', {}],
+  ])('%s', (_, content, options, code, detail) => {
+    expectError(() => readMesh(text(content), options), code, detail);
+    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+  });
+
+  it('a header that promises 4e9 vertices', () => {
+    expectError(() => readMesh(binaryHeader(4_000_000_000)), 'Truncated', { expected: 48_000_000_000, available: 0 });
+    expectError(() => readMesh(text('OFF\n4000000000 1 0\n0 0 0\n')), 'Truncated', { available: 6 });
+    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+  });
+
+  it('random bytes, and files with bytes changed or lost: an error with a code or a sound mesh', () => {
+    const next = random(99);
+    const byte = () => Math.floor(256 * next());
+    const good = [OFF, PLY()].map(text);
+    good.push(writeMesh(make(tetrahedron()), { format: 'ply', binary: true, fields: { f: [1, 2, 3, 4] } }));
+    good.push(writeMesh(make(tetrahedron()), { format: 'vtk', binary: true, fields: { f: [1, 2, 3, 4] } }));
+    const codes = new Set();
+    for (let round = 0; round < 2000; round++) {
+      let bytes = good[round % good.length].slice();
+      if (round % 5 === 0) bytes = Uint8Array.from({ length: byte() }, byte);
+      else if (round % 3 === 0) bytes = bytes.slice(0, Math.floor(bytes.length * next()));
+      else for (let k = 0; k < 3; k++) bytes[Math.floor(bytes.length * next())] = byte();
+      try {
+        const { mesh, fields } = readMesh(bytes, {
+          format: round % 2 ? undefined : ['off', 'ply', 'obj', 'vtk'][round % 4],
+        });
+        expect([...mesh.positions()].every(Number.isFinite)).toBe(true);
+        expect(Number.isInteger(mesh.topology.eulerCharacteristic)).toBe(true);
+        for (const values of Object.values(fields)) expect(values.length).toBe(mesh.vertexCount);
+        mesh.free();
+      } catch (error) {
+        expect(error.code, error.stack).toEqual(expect.any(String));
+        codes.add(error.code);
+      }
+    }
+    expect(codes).not.toContain('InternalError');
+    expect(codes.size).toBeGreaterThan(3);
+    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+  });
+
+  it('arguments and options of readMesh', () => {
+    for (const bytes of [OFF, undefined, null, [1, 2], new ArrayBuffer(8), new Float64Array(3)]) {
+      expectError(() => readMesh(bytes), 'InvalidArgument', { argument: 'bytes' });
+      expectError(() => readField(bytes), 'InvalidArgument', { argument: 'bytes' });
+    }
+    expectError(() => readMesh(text(OFF), { format: 'xyz' }), 'InvalidOption', { option: 'format' });
+    expectError(() => readMesh(text(OFF), { filename: 'x.off' }), 'UnknownOption', { option: 'filename' });
+    expectError(() => readMesh(text(OFF), { fileName: 5 }), 'InvalidOption', { option: 'fileName' });
+    expectError(() => readMesh(text(OFF), 'off'), 'InvalidArgument', { argument: 'options' });
+    expect(readMesh(text(OFF), { format: undefined, weld: true }).mesh.vertexCount).toBe(4);
+  });
+
+  it('fields', () => {
+    expectError(() => readField(text('')), 'EmptyFile');
+    expectError(() => readField(text('1\ntwo\n3\n')), 'InvalidNumber', { line: 2 });
+    expectError(() => readField(text('a,b\n1,2\n'), { column: 'c' }), 'UnknownColumn', { column: 'c' });
+    expectError(() => readField(text('a,b\n1,2\n'), { column: 7 }), 'UnknownColumn');
+    expectError(() => readField(text('1\n'), { format: 'npy' }), 'UnsupportedFormat', { format: 'npy' });
+    expectError(() => readField(text('1\n'), { format: 'xls' }), 'InvalidOption', { option: 'format' });
+    expectError(() => readField(text('1\n'), { colunm: 1 }), 'UnknownOption', { option: 'colunm' });
+    expect([...readField(text('1\n'))]).toEqual([1]);
+  });
+});

@@ -1,0 +1,23 @@
+import init, * as api from 'morse-smooth';
+import initInline, * as inline from 'morse-smooth/inline';
+import wasmUrl from 'morse-smooth/morse_smooth_bg.wasm?url';
+import { use } from '../use.js';
+
+const inWorker = () =>
+  new Promise((resolve) => {
+    const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+    worker.onmessage = ({ data }) => resolve(data);
+    worker.onerror = ({ message }) => resolve(message);
+  });
+
+async function all() {
+  await init();
+  await initInline();
+  const { byteLength } = await (await fetch(wasmUrl)).arrayBuffer();
+  return { page: use(api), inline: use(inline), worker: await inWorker(), byteLength };
+}
+
+all().then(
+  (result) => (globalThis.result = result),
+  (error) => (globalThis.result = String(error)),
+);

@@ -1,0 +1,165 @@
+import { execFileSync, spawnSync } from 'node:child_process';
+import { readFileSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { describe, expect, inject, it } from 'vitest';
+import { npm } from '../../scripts/lib/run.mjs';
+import { openPage, serveFolder } from './browser.js';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const installed = inject('installed');
+const dist = join(installed, 'node_modules', 'morse-smooth', 'dist');
+const { version } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
+
+/** What use.js finds: a square of area 2 with a peak in the middle of a slope. */
+const expected = {
+  version,
+  area: 2,
+  before: { minima: 1, maxima: 1, saddles: expect.any(Number), indexSum: 1 },
+  finite: true,
+  code: 'IndexOutOfBounds',
+};
+
+describe('the package', () => {
+  it('holds what users need and nothing else', () => {
+    expect(inject('packed')).toEqual([
+      'CHANGELOG.md',
+      'LICENSE-APACHE',
+      'LICENSE-MIT',
+      'README.md',
+      'dist/core.js',
+      'dist/index.d.cts',
+      'dist/index.d.ts',
+      'dist/index.js',
+      'dist/inline.d.ts',
+      'dist/inline.js',
+      'dist/morse_smooth_bg.wasm',
+      'dist/node.cjs',
+      'dist/node.mjs',
+      'dist/wasm-base64.js',
+      'package.json',
+    ]);
+  });
+
+  it('would be published without a warning', () => {
+    const [command, parameters] = npm('publish', '--dry-run', '--ignore-scripts', '--tag', 'latest');
+    const { status, stderr } = spawnSync(command, parameters, { cwd: root, encoding: 'utf8' });
+    // About the settings of whoever runs this, not about the package.
+    const warnings = stderr
+      .split('\n')
+      .filter((line) => /^npm (warn|error)/i.test(line) && !/ (user|env) config | logged in /.test(line));
+    expect(warnings).toEqual([]);
+    expect(status).toBe(0);
+  });
+
+  it('brings nothing along and runs nothing when it is installed', () => {
+    const manifest = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
+    expect(manifest.dependencies ?? manifest.optionalDependencies ?? manifest.peerDependencies).toBeUndefined();
+    const installScripts = ['preinstall', 'install', 'postinstall', 'prepare'];
+    expect(Object.keys(manifest.scripts).filter((name) => installScripts.includes(name))).toEqual([]);
+    expect(readdirSync(join(installed, 'node_modules')).filter((name) => !name.startsWith('.'))).toEqual([
+      'morse-smooth',
+    ]);
+  });
+
+  it('has no Node module, await at the top or eval in what browsers load', () => {
+    for (const name of ['index.js', 'core.js', 'inline.js']) {
+      const source = readFileSync(join(dist, name), 'utf8');
+      expect(source).not.toMatch(/node:|require\(|^await |\beval\(|new Function/m);
+    }
+  });
+
+  it('says nothing of the machine that built it', () => {
+    for (const name of readdirSync(dist)) {
+      const content = readFileSync(join(dist, name), 'latin1');
+      expect(content.match(/(\.cargo|\/home|\/root|\/Users)\/[\w./-]{0,80}/)?.[0], name).toBeUndefined();
+    }
+  });
+});
+
+describe('Node', () => {
+  const run = (...parameters) =>
+    JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
+
+  it('imports it', () => {
+    expect(run('import.mjs')).toEqual({ ...expected, oneInstance: true });
+  });
+
+  it('requires it', () => {
+    const names = [
+      'MorseSmoothError',
+      'Smoother',
+      'TriMesh',
+      'default',
+      'readField',
+      'readMesh',
+      'smooth',
+      'version',
+      'writeMesh',
+    ];
+    expect(run('require.cjs')).toEqual({ ...expected, keys: names });
+  });
+
+  it('imports the inline entry', () => {
+    expect(run('inline.mjs')).toEqual(expected);
+  });
+
+  it('finds the wasm file and package.json under their own names', () => {
+    const script =
+      "console.log(JSON.stringify(['morse_smooth_bg.wasm', 'package.json'].map((x) => require.resolve('morse-smooth/' + x))))";
+    expect(run('-e', script)).toEqual([join(dist, 'morse_smooth_bg.wasm'), join(dist, '..', 'package.json')]);
+  });
+});
+
+describe('Chromium', () => {
+  const resultOf = async (url) => {
+    const { page, problems, close } = await openPage(url);
+    try {
+      await page.waitForFunction(() => globalThis.result !== undefined);
+      expect(problems).toEqual([]);
+      return await page.evaluate(() => globalThis.result);
+    } finally {
+      await close();
+    }
+  };
+  const throughVite = {
+    page: expected,
+    inline: expected,
+    worker: expected,
+    byteLength: readFileSync(join(dist, 'morse_smooth_bg.wasm')).length,
+  };
+  const app = join(installed, 'vite');
+  const common = { root: app, configFile: false, logLevel: 'error' };
+
+  it('runs what Vite has built, a worker included', async () => {
+    const { build, preview } = await import('vite');
+    await build({ ...common, worker: { format: 'es' }, build: { outDir: 'built' } });
+    const server = await preview({ ...common, build: { outDir: 'built' }, preview: { port: 0 } });
+    try {
+      expect(await resultOf(server.resolvedUrls.local[0])).toEqual(throughVite);
+    } finally {
+      await server.close();
+    }
+  });
+
+  it("runs what Vite's development server serves", async () => {
+    const { createServer } = await import('vite');
+    const server = await createServer({ ...common, server: { port: 0 } });
+    try {
+      await server.listen();
+      expect(await resultOf(server.resolvedUrls.local[0])).toEqual(throughVite);
+    } finally {
+      await server.close();
+    }
+  });
+
+  it('runs it from a static server, without a bundler, MIME type for wasm or permission to eval', async () => {
+    const headers = { 'content-security-policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'" };
+    const server = await serveFolder(installed, headers);
+    try {
+      expect(await resultOf(`${server.url}/static/index.html`)).toEqual(expected);
+    } finally {
+      await server.close();
+    }
+  });
+});

@@ -1,0 +1,237 @@
+// Compiled, never run: the whole public API as a user writes it, and what must not compile.
+import init, {
+  MorseSmoothError,
+  Smoother,
+  TriMesh,
+  readField,
+  readMesh,
+  smooth,
+  version,
+  writeMesh,
+} from 'morse-smooth';
+import type * as api from 'morse-smooth';
+import initInline, { TriMesh as InlineTriMesh } from 'morse-smooth/inline';
+
+/** Compiles only where the two types are the same. */
+function same<A, B>(_: [A] extends [B] ? ([B] extends [A] ? true : never) : never): void {}
+
+// ------------------------------------------------------------------------------------------------------------ loading
+await init();
+await init({});
+await init({ wasm: '/wasm/morse_smooth_bg.wasm' });
+await init({ wasm: new URL('https://example.org/morse_smooth_bg.wasm') });
+await init({ wasm: new Request('/x.wasm') });
+await init({ wasm: await fetch('/x.wasm') });
+await init({ wasm: new Uint8Array(8) });
+await init({ wasm: await WebAssembly.compile(new ArrayBuffer(8)) });
+const done: Promise<void> = initInline();
+// @ts-expect-error there is no such option
+await init({ url: '/x.wasm' });
+same<typeof version, string>(true);
+same<typeof InlineTriMesh, typeof TriMesh>(true);
+
+// -------------------------------------------------------------------------------------------------------------- files
+const file = readMesh(new Uint8Array(3), { format: 'ply', fileName: 'x.ply', weld: true });
+same<typeof file, api.MeshFile>(true);
+same<api.MeshFile['format'], 'obj' | 'off' | 'ply' | 'vtk'>(true);
+const fields: Record<string, Float64Array> = file.fields;
+for (const { code, message, count, examples } of file.warnings) {
+  same<[typeof code, typeof message, typeof count, typeof examples], [string, string, number, number[]]>(true);
+}
+// @ts-expect-error text is not bytes
+readMesh('OFF');
+// @ts-expect-error not built yet
+readMesh(new Uint8Array(3), { format: 'glb' });
+// @ts-expect-error the option is called fileName
+readMesh(new Uint8Array(3), { filename: 'x.ply' });
+
+const heat: Float64Array = readField(new Uint8Array(3), { format: 'csv', column: 'heat' });
+readField(new Uint8Array(3), { format: 'txt', column: 2 });
+// @ts-expect-error not built yet
+readField(new Uint8Array(3), { format: 'npy' });
+
+const bytes: Uint8Array = writeMesh(file.mesh, { format: 'vtk', binary: true, fields: { heat, cold: [1, 2] } });
+// @ts-expect-error the format has no default
+writeMesh(file.mesh, {});
+// @ts-expect-error not built yet
+writeMesh(file.mesh, { format: 'vtp' });
+
+// --------------------------------------------------------------------------------------------------------------- mesh
+const mesh = new TriMesh(new Float32Array(9), new Uint16Array(3), { weld: false });
+new TriMesh([0, 0, 0, 1, 0, 0, 0, 1, 0] as const, [0, 1, 2] as const);
+new TriMesh(new Float64Array(9), new Uint32Array(3));
+// @ts-expect-error strings are not numbers
+new TriMesh(['0'], [0]);
+// @ts-expect-error ids are not signed
+new TriMesh([0, 0, 0], new Int32Array(3));
+// @ts-expect-error big integers are not numbers
+new TriMesh(new BigInt64Array(9), [0, 1, 2]);
+// @ts-expect-error a mesh cannot be changed
+mesh.area = 3;
+// @ts-expect-error nor can its topology
+mesh.topology.closed = true;
+
+const { vertexCount, edgeCount, triangleCount, area, topology, warnings } = mesh;
+same<[typeof vertexCount, typeof edgeCount, typeof triangleCount, typeof area], [number, number, number, number]>(true);
+same<typeof warnings, api.Diagnostic[]>(true);
+const genus: number | null = topology.genus;
+// @ts-expect-error there may be none
+const handles: number = topology.genus;
+const { eulerCharacteristic, components, boundaryLoops, closed, orientable } = topology;
+const { nonManifoldEdges, nonManifoldVertices, isolatedVertices, degenerateTriangles } = topology;
+same<[typeof eulerCharacteristic, typeof closed], [number, boolean]>(true);
+same<ReturnType<TriMesh['positions']>, Float64Array>(true);
+same<ReturnType<TriMesh['triangles']>, Uint32Array>(true);
+
+// -------------------------------------------------------------------------------------------------------- field analysis
+const link: api.Link = 'skip';
+const points: api.CriticalPoints = mesh.criticalPoints(heat, {
+  delta: 0.1,
+  deltaIs: 'absolute',
+  link,
+  rule: 'literal',
+});
+same<api.CriticalPoints['kinds'], Int8Array>(true);
+const { vertices, kinds, multiplicities, onBoundary, counts } = points;
+const { minima, maxima, saddles, indexSum } = counts;
+same<typeof indexSum, number | null>(true);
+// @ts-expect-error the option is called deltaIs
+mesh.criticalPoints(heat, { delta: 0.1, thresholdIs: 'absolute' });
+// @ts-expect-error one of two
+mesh.criticalPoints(heat, { link: 'closed' });
+
+const lines: api.LevelSets = mesh.levelSets([1, 2, 3], { count: 5 });
+mesh.levelSets(new Float32Array(3), [0.5, 0.6]);
+mesh.levelSets(heat, Float64Array.of(1));
+const polylines: api.Polylines = lines;
+const { points: coordinates, offsets, levels, closed: closedLines, edges, parameters } = lines;
+// @ts-expect-error a number alone is neither levels nor a count
+mesh.levelSets(heat, 5);
+// @ts-expect-error levels have no default
+mesh.levelSets(heat);
+
+const { sobolev, laplacianNorm }: api.Smoothness = mesh.smoothness(heat, { weights: 'meanValue' });
+const matrix: api.SparseMatrix = mesh.laplacian({ weights: 'normalizedCotangent' });
+const { rows, columns, columnPointers, rowIndices, values } = matrix;
+const mass: api.SparseMatrix = mesh.mass({ kind: 'lumped', massScale: 'raw' });
+// @ts-expect-error not built yet
+mesh.laplacian({ weights: 'intrinsicDelaunay' });
+// @ts-expect-error not built yet
+mesh.persistence(heat);
+
+// ---------------------------------------------------------------------------------------------------------- smoothing
+const smoother = new Smoother(mesh, {
+  weights: 'uniform',
+  solver: 'cg',
+  onProgress: ({ phase, fraction }) => console.log(`${phase}: ${Math.round(100 * fraction)} %`),
+});
+const result: api.Smoothed = smoother.tikhonov(heat, {
+  epsilon: 0.05,
+  metric: 'lumped',
+  massScale: 'raw',
+  channels: 3,
+});
+const { report, reports } = result;
+same<typeof reports, api.SmoothReport[]>(true);
+const { method, equation, epsilon, constraintCount, before, after, lInfinity, l2, metricNorm } = report;
+const { sobolevBefore, sobolevAfter, preserved, freeExtrema, perturbationFactor, solver } = report;
+const { route, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } = solver;
+same<[typeof before, typeof epsilon, typeof relativeResidual], [api.CriticalCounts, number | null, number]>(true);
+// @ts-expect-error ε has no default
+smoother.tikhonov(heat, {});
+// @ts-expect-error options are needed
+smoother.tikhonov(heat);
+// @ts-expect-error one of three
+smoother.tikhonov(heat, { epsilon: 1, metric: 'euclidean' });
+// @ts-expect-error not built yet
+new Smoother(mesh, { precision: 'single' });
+// @ts-expect-error not built yet
+smoother.interpolate(heat, { constraints: [0] });
+
+const short: api.Smoothed = smooth(mesh, heat, {
+  epsilon: 1,
+  method: 'tikhonov',
+  weights: 'cotangent',
+  solver: 'cholesky',
+});
+// @ts-expect-error not built yet
+smooth(mesh, heat, { epsilon: 'auto' });
+// @ts-expect-error ε has no default
+smooth(mesh, heat);
+
+// ------------------------------------------------------------------------------------------------------- end and errors
+{
+  using scoped = new TriMesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+  using scopedSmoother = new Smoother(scoped);
+  void scopedSmoother;
+}
+smoother.free();
+mesh.free();
+try {
+  mesh.positions();
+} catch (error) {
+  if (error instanceof MorseSmoothError) {
+    const { code, detail, name, cause } = error;
+    same<typeof code, string>(true);
+    const vertex: unknown = detail.vertex;
+    // @ts-expect-error what a detail holds must be looked at
+    const id: number = detail.vertex;
+    // @ts-expect-error a code does not change
+    error.code = '';
+    void [vertex, id, name, cause];
+  }
+}
+const remade: Error = new MorseSmoothError('NonFiniteValue', 'the value at vertex 3 is not finite', { vertex: 3 });
+
+export const used = [
+  ...[
+    done,
+    fields,
+    bytes,
+    genus,
+    handles,
+    components,
+    boundaryLoops,
+    orientable,
+    nonManifoldEdges,
+    nonManifoldVertices,
+  ],
+  ...[
+    isolatedVertices,
+    degenerateTriangles,
+    vertices,
+    kinds,
+    multiplicities,
+    onBoundary,
+    minima,
+    maxima,
+    saddles,
+    polylines,
+  ],
+  ...[
+    coordinates,
+    offsets,
+    levels,
+    closedLines,
+    edges,
+    parameters,
+    sobolev,
+    laplacianNorm,
+    rows,
+    columns,
+    columnPointers,
+  ],
+  ...[rowIndices, values, mass, method, equation, constraintCount, after, lInfinity, l2, metricNorm, sobolevBefore],
+  ...[
+    sobolevAfter,
+    preserved,
+    freeExtrema,
+    perturbationFactor,
+    route,
+    unknowns,
+    factorNonzeros,
+    refinementSteps,
+    iterations,
+  ],
+  ...[short, remade],
+];
