@@ -38,10 +38,14 @@ for (const name of ['genus22.ply', 'torus_irregular.ply']) save(name, readFileSy
   const triangles = [];
   for (let c = 0; c < columns; c++) {
     triangles.push(south, at(0, c + 1), at(0, c));
-    for (let r = 0; r + 1 < rows; r++) triangles.push(at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r, c), at(r + 1, c + 1), at(r + 1, c));
+    for (let r = 0; r + 1 < rows; r++)
+      triangles.push(at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r, c), at(r + 1, c + 1), at(r + 1, c));
     triangles.push(north, at(rows - 1, c), at(rows - 1, c + 1));
   }
-  save('egm96_geoid_2deg.ply', encode(pick(mesh.positions(), kept, 3), triangles, { geoid_m: pick(fields.geoid_m, kept, 1) }));
+  save(
+    'egm96_geoid_2deg.ply',
+    encode(pick(mesh.positions(), kept, 3), triangles, { geoid_m: pick(fields.geoid_m, kept, 1) }),
+  );
 }
 
 // A grid of 172 columns with 202 nodes each: every second of both.
@@ -57,7 +61,10 @@ for (const name of ['genus22.ply', 'torus_irregular.ply']) save(name, readFileSy
       triangles.push(a, a + rows, a + rows + 1, a, a + rows + 1, a + 1);
     }
   }
-  save('jacksboro_dem.ply', encode(pick(mesh.positions(), kept, 3), triangles, { elevation: pick(fields.elevation, kept, 1) }));
+  save(
+    'jacksboro_dem.ply',
+    encode(pick(mesh.positions(), kept, 3), triangles, { elevation: pick(fields.elevation, kept, 1) }),
+  );
 }
 
 function read(name) {
@@ -77,9 +84,14 @@ function encode(positions, triangles, fields) {
   if (vertices > 65536) throw new Error(`${vertices} vertices do not fit 16-bit ids`);
   const names = Object.keys(fields);
   const header = [
-    'ply', 'format binary_little_endian 1.0', `element vertex ${vertices}`,
+    'ply',
+    'format binary_little_endian 1.0',
+    `element vertex ${vertices}`,
     ...['x', 'y', 'z', ...names].map((property) => `property float ${property}`),
-    `element face ${faces}`, 'property list uchar ushort vertex_indices', 'end_header', '',
+    `element face ${faces}`,
+    'property list uchar ushort vertex_indices',
+    'end_header',
+    '',
   ].join('\n');
   const bytes = Buffer.alloc(header.length + vertices * 4 * (3 + names.length) + faces * 7);
   let offset = bytes.write(header, 'latin1');
@@ -100,7 +112,9 @@ function save(name, bytes) {
   writeFileSync(join(target, name), bytes);
   const { mesh, fields } = readMesh(bytes, { fileName: name });
   const { eulerCharacteristic, boundaryLoops, orientable } = mesh.topology;
-  console.log(`${name}: ${bytes.length} bytes, ${mesh.vertexCount} vertices, ${mesh.triangleCount} triangles, χ ${eulerCharacteristic}, ${boundaryLoops} boundary loops, ${orientable ? '' : 'not '}orientable`);
+  console.log(
+    `${name}: ${bytes.length} bytes, ${mesh.vertexCount} vertices, ${mesh.triangleCount} triangles, χ ${eulerCharacteristic}, ${boundaryLoops} boundary loops, ${orientable ? '' : 'not '}orientable`,
+  );
   for (const [field, values] of Object.entries(fields)) {
     const { minima, maxima, saddles, indexSum } = mesh.criticalPoints(values).counts;
     console.log(`  ${field}: ${minima} minima, ${maxima} maxima, ${saddles} saddles, index sum ${indexSum}`);

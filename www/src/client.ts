@@ -8,6 +8,7 @@ import type { Failure, Part, Reply, Request, Settings } from './protocol';
 
 export interface ClientEvents {
   part(part: Part): void;
+  progress(fraction: number): void;
   /** Something is under way. */
   working(request: Request): void;
   done(request: Request, settings: Settings | null): void;
@@ -56,15 +57,22 @@ export class Client {
       this.worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'morse-smooth' });
     } catch (error) {
       // Later, so that whoever makes this client holds it when it hears about the failure.
-      queueMicrotask(() => broken(`The background worker could not be started. ${error instanceof Error ? error.message : ''}`));
+      queueMicrotask(() =>
+        broken(`The background worker could not be started. ${error instanceof Error ? error.message : ''}`),
+      );
       return;
     }
     this.worker.onmessage = ({ data }: MessageEvent<Reply>) => this.receive(data);
-    this.worker.onmessageerror = () => broken('The background worker sent something unreadable. Reload the page to go on.');
+    this.worker.onmessageerror = () =>
+      broken('The background worker sent something unreadable. Reload the page to go on.');
     // A worker script that cannot be loaded gives an event without a message.
     this.worker.onerror = (event) => {
       event.preventDefault();
-      broken(event.message ? `The background worker stopped: ${event.message}` : 'The background worker could not be loaded. Reload the page to try again.');
+      broken(
+        event.message
+          ? `The background worker stopped: ${event.message}`
+          : 'The background worker could not be loaded. Reload the page to try again.',
+      );
     };
   }
 
@@ -75,6 +83,8 @@ export class Client {
         return this.next();
       case 'part':
         return this.events.part(reply.part);
+      case 'progress':
+        return this.events.progress(reply.fraction);
       case 'done':
       case 'failed':
         return this.finish(reply);

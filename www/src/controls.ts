@@ -12,7 +12,9 @@ const DELTA_RANGE = [0, 0.5] as const;
 const LEVELS_RANGE = [0, 60] as const;
 
 const ORIGINS: readonly [FieldEntry['origin'], string][] = [
-  ['added', 'Added'], ['file', 'In the file'], ['coordinate', 'Coordinates'],
+  ['added', 'Added'],
+  ['file', 'In the file'],
+  ['coordinate', 'Coordinates'],
 ];
 
 export interface ControlEvents {
@@ -42,7 +44,11 @@ export class Controls {
   private readonly link = select('link');
   private readonly example = select('example');
 
-  constructor(examples: readonly Example[], private readonly initial: Settings, private readonly events: ControlEvents) {
+  constructor(
+    examples: readonly Example[],
+    private readonly initial: Settings,
+    private readonly events: ControlEvents,
+  ) {
     for (const { id, label } of examples) this.example.add(new Option(label, id));
     this.write(initial);
     this.wireSettings();
@@ -132,8 +138,11 @@ export class Controls {
     };
     number(this.epsilonNumber, this.initial.epsilon, (value) => this.writeEpsilon(value));
     number(this.deltaNumber, this.initial.delta, (value) => this.writeDelta(value));
-    number(this.levels, this.initial.levels, (value) => { this.levels.value = String(Math.round(clamp(value, LEVELS_RANGE))); });
-    for (const choice of [this.field, this.metric, this.link]) choice.addEventListener('change', () => events.settings());
+    number(this.levels, this.initial.levels, (value) => {
+      this.levels.value = String(Math.round(clamp(value, LEVELS_RANGE)));
+    });
+    for (const choice of [this.field, this.metric, this.link])
+      choice.addEventListener('change', () => events.settings());
     element('#controls', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
   }
 
@@ -143,16 +152,22 @@ export class Controls {
     const levels = input('show-levels');
     const edges = input('show-edges');
     for (const box of [glyphs, levels, edges]) {
-      box.addEventListener('change', () => events.layers({ glyphs: glyphs.checked, levels: levels.checked, edges: edges.checked }));
+      box.addEventListener('change', () =>
+        events.layers({ glyphs: glyphs.checked, levels: levels.checked, edges: edges.checked }),
+      );
     }
     const colormap = select('colormap');
-    colormap.addEventListener('change', () => events.colormap(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0]));
+    colormap.addEventListener('change', () =>
+      events.colormap(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0]),
+    );
     element('#reset-view', HTMLButtonElement).addEventListener('click', () => events.resetView());
   }
 
   private wireFiles(): void {
     const { events } = this;
-    this.example.addEventListener('change', () => { if (this.example.value) events.example(this.example.value); });
+    this.example.addEventListener('change', () => {
+      if (this.example.value) events.example(this.example.value);
+    });
     const picker = (id: string, use: (file: File) => void): void => {
       const box = input(id);
       box.addEventListener('change', () => {

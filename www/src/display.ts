@@ -20,7 +20,10 @@ export function placementOf(positions: Float64Array): Placement {
   const centre = low.map((value, axis) => (value + high[axis]!) / 2) as [number, number, number];
   let farthest = 0;
   for (let i = 0; i < positions.length; i += 3) {
-    farthest = Math.max(farthest, Math.hypot(positions[i]! - centre[0], positions[i + 1]! - centre[1], positions[i + 2]! - centre[2]));
+    farthest = Math.max(
+      farthest,
+      Math.hypot(positions[i]! - centre[0], positions[i + 1]! - centre[1], positions[i + 2]! - centre[2]),
+    );
   }
   return { centre, scale: farthest > 0 ? 1 / farthest : 1 };
 }
@@ -39,14 +42,33 @@ function upOf(positions: Float32Array): 'y' | 'z' {
   return extent[2]! < 0.75 * Math.min(extent[0]!, extent[1]!) ? 'z' : 'y';
 }
 
+/**
+ * Whether the triangles face inwards, so that normals and with them the glyphs would sink into the surface.
+ *
+ * Three times the enclosed volume over the area is 1 for a ball and about 0 for a sheet, which has no inside.
+ */
+function facesInwards(positions: Float32Array, triangles: Uint32Array): boolean {
+  let volume = 0;
+  let area = 0;
+  const corner = (t: number, k: number, axis: number): number => positions[3 * triangles[3 * t + k]! + axis]!;
+  for (let t = 0; 3 * t < triangles.length; t++) {
+    const [ax, ay, az] = [corner(t, 0, 0), corner(t, 0, 1), corner(t, 0, 2)];
+    const [ux, uy, uz] = [corner(t, 1, 0) - ax, corner(t, 1, 1) - ay, corner(t, 1, 2) - az];
+    const [vx, vy, vz] = [corner(t, 2, 0) - ax, corner(t, 2, 1) - ay, corner(t, 2, 2) - az];
+    const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    volume += ax * nx + ay * ny + az * nz;
+    area += Math.hypot(nx, ny, nz);
+  }
+  return volume < -0.1 * area;
+}
+
 export function displayMesh(mesh: TriMesh, positions: Float64Array, placement: Placement): DisplayMesh {
   const placed = place(positions, placement);
-  return {
-    positions: placed,
-    triangles: new Uint32Array(mesh.triangles()),
-    area: mesh.area * placement.scale ** 2,
-    up: upOf(placed),
-  };
+  const triangles = new Uint32Array(mesh.triangles());
+  if (facesInwards(placed, triangles)) {
+    for (let t = 0; t < triangles.length; t += 3) triangles.subarray(t, t + 2).reverse();
+  }
+  return { positions: placed, triangles, area: mesh.area * placement.scale ** 2, up: upOf(placed) };
 }
 
 export function rangeOf(values: Float64Array): [number, number] {
@@ -74,7 +96,8 @@ export function segmentsOf(lines: LevelSets, placement: Placement): Float32Array
   const points = place(lines.points, placement);
   const count = lines.offsets.length - 1;
   let total = 0;
-  for (let k = 0; k < count; k++) total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (lines.closed[k] ? 1 : 0);
+  for (let k = 0; k < count; k++)
+    total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (lines.closed[k] ? 1 : 0);
   const segments = new Float32Array(6 * total);
   let at = 0;
   const add = (from: number, to: number): void => {

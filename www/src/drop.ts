@@ -10,7 +10,9 @@ export function acceptDrops(use: (files: File[]) => void): void {
   const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
   // Entering a child leaves its parent: counting tells when the pointer has left the window.
   let depth = 0;
-  const settle = (): void => { veil.hidden = depth <= 0; };
+  const settle = (): void => {
+    veil.hidden = depth <= 0;
+  };
   window.addEventListener('dragenter', (event) => {
     if (!holdsFiles(event)) return;
     event.preventDefault();
@@ -22,7 +24,9 @@ export function acceptDrops(use: (files: File[]) => void): void {
     depth -= 1;
     settle();
   });
-  window.addEventListener('dragover', (event) => { if (holdsFiles(event)) event.preventDefault(); });
+  window.addEventListener('dragover', (event) => {
+    if (holdsFiles(event)) event.preventDefault();
+  });
   window.addEventListener('drop', (event) => {
     if (!holdsFiles(event)) return;
     event.preventDefault();

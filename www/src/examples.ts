@@ -14,11 +14,52 @@ export interface Example {
 }
 
 export const EXAMPLES: readonly Example[] = [
-  { id: 'genus22', label: 'Genus 22, noisy', file: 'genus22.ply', field: 'file:noisy', epsilon: 0.1, levels: 12, view: [0.75, 0.8, 0.3] },
-  { id: 'torus', label: 'Irregular torus, noisy', file: 'torus_irregular.ply', field: 'file:noisy', epsilon: 0.1, levels: 14, view: [0.15, 0.8, 0.8] },
-  { id: 'earth', label: 'Earth: geoid height', file: 'egm96_geoid_2deg.ply', field: 'file:geoid_m', epsilon: 0.1, levels: 14, view: [-0.3, 0.3, -0.95], up: 'z' },
-  { id: 'terrain', label: 'Terrain: Jacksboro', file: 'jacksboro_dem.ply', field: 'file:elevation', epsilon: 0.1, levels: 12, view: [0, 0.95, 0.5] },
-  { id: 'lysozyme', label: 'Protein: lysozyme', file: 'lysozyme_potential.ply', field: 'file:potential', epsilon: 0.01, levels: 12, view: [0.3, 0.3, 1] },
+  {
+    id: 'genus22',
+    label: 'Genus 22, noisy',
+    file: 'genus22.ply',
+    field: 'file:noisy',
+    epsilon: 0.1,
+    levels: 12,
+    view: [0.75, 0.8, 0.3],
+  },
+  {
+    id: 'torus',
+    label: 'Irregular torus, noisy',
+    file: 'torus_irregular.ply',
+    field: 'file:noisy',
+    epsilon: 0.1,
+    levels: 14,
+    view: [0.15, 0.8, 0.8],
+  },
+  {
+    id: 'earth',
+    label: 'Earth: geoid height',
+    file: 'egm96_geoid_2deg.ply',
+    field: 'file:geoid_m',
+    epsilon: 0.1,
+    levels: 14,
+    view: [-0.3, 0.3, -0.95],
+    up: 'z',
+  },
+  {
+    id: 'terrain',
+    label: 'Terrain: Jacksboro',
+    file: 'jacksboro_dem.ply',
+    field: 'file:elevation',
+    epsilon: 0.1,
+    levels: 12,
+    view: [0, 0.95, 0.5],
+  },
+  {
+    id: 'lysozyme',
+    label: 'Protein: lysozyme',
+    file: 'lysozyme_potential.ply',
+    field: 'file:potential',
+    epsilon: 0.01,
+    levels: 12,
+    view: [0.3, 0.3, 1],
+  },
 ];
 
 /** For meshes that we know nothing about. */

@@ -4,8 +4,18 @@
  * colour of the surface.
  */
 import {
-  BackSide, BoxGeometry, BufferGeometry, Group, IcosahedronGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, MeshLambertMaterial,
-  OctahedronGeometry, Quaternion, Vector3,
+  BackSide,
+  BoxGeometry,
+  BufferGeometry,
+  Group,
+  IcosahedronGeometry,
+  InstancedMesh,
+  Matrix4,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  OctahedronGeometry,
+  Quaternion,
+  Vector3,
 } from 'three';
 
 export const MINIMUM = -1;
@@ -26,12 +36,15 @@ const SHAPES: Record<Kind, () => BufferGeometry> = {
 
 /** Radius for which the glyphs cover about an eighth of the surface when they are many, and a set size when they are few. */
 export function glyphRadius(area: number, count: number): number {
-  return Math.max(0.004, Math.min(0.021, 0.2 * Math.sqrt(area / Math.max(1, count))));
+  return Math.max(0.004, Math.min(0.019, 0.2 * Math.sqrt(area / Math.max(1, count))));
 }
 
 export class GlyphLayer {
   readonly group = new Group();
-  private readonly solids = new Map<Kind, { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }>();
+  private readonly solids = new Map<
+    Kind,
+    { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }
+  >();
 
   constructor() {
     for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {

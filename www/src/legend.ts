@@ -39,14 +39,19 @@ export class Legend {
     const [low, high] = this.range;
     const width = this.ticks.clientWidth;
     const along = (value: number): number => (high > low ? (value - low) / (high - low) : 0);
-    const inner = roundNumbers(low, high).filter((value) => width * along(value) > ROOM && width * (1 - along(value)) > ROOM);
-    const marks: [number, string][] = high > low ? [low, ...inner, high].map((value) => [value, short(value)]) : [[low, `${short(low)} everywhere`]];
-    this.ticks.replaceChildren(...marks.map(([value, text]) => {
-      const mark = document.createElement('span');
-      mark.textContent = text;
-      mark.style.left = `${100 * along(value)}%`;
-      return mark;
-    }));
+    const inner = roundNumbers(low, high).filter(
+      (value) => width * along(value) > ROOM && width * (1 - along(value)) > ROOM,
+    );
+    const marks: [number, string][] =
+      high > low ? [low, ...inner, high].map((value) => [value, short(value)]) : [[low, `${short(low)} everywhere`]];
+    this.ticks.replaceChildren(
+      ...marks.map(([value, text]) => {
+        const mark = document.createElement('span');
+        mark.textContent = text;
+        mark.style.left = `${100 * along(value)}%`;
+        return mark;
+      }),
+    );
   }
 
   private draw(): void {

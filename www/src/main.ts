@@ -14,7 +14,14 @@ import { Status } from './status';
 import { link } from './viewer';
 
 const OPENING = EXAMPLES[0]!;
-const INITIAL: Settings = { field: '', metric: 'mass', epsilon: OPENING.epsilon, delta: 0, link: 'consecutive', levels: OPENING.levels };
+const INITIAL: Settings = {
+  field: '',
+  metric: 'mass',
+  epsilon: OPENING.epsilon,
+  delta: 0,
+  link: 'consecutive',
+  levels: OPENING.levels,
+};
 
 /** What was opened last, kept so that it can be given to a new worker. */
 interface Source {
@@ -50,6 +57,7 @@ const controls = new Controls(EXAMPLES, INITIAL, {
 
 const client = new Client({
   part: show,
+  progress: (fraction) => status.progress(fraction),
   working: (request) => status.working(describe(request)),
   done: (request, settings) => {
     if (request.kind === 'addField') source?.added.push(request.file);
@@ -64,7 +72,8 @@ const client = new Client({
     // Back to what is shown, unless the user has already asked for something else.
     if (settings && !client.busy) controls.write(settings);
     showSource();
-    for (const panel of Object.values(panels)) if (panel.awaiting) panel.say(shown ? 'There is no smoothed field.' : 'No mesh is open.');
+    for (const panel of Object.values(panels))
+      if (panel.awaiting) panel.say(shown ? 'There is no smoothed field.' : 'No mesh is open.');
   },
   idle: () => status.idle(),
 });
@@ -77,18 +86,25 @@ function eachViewer(use: (viewer: NonNullable<Panel['viewer']>) => void): void {
 
 function describe(request: Request): string {
   switch (request.kind) {
-    case 'open': return `Opening ${request.file.name}…`;
-    case 'addField': return `Reading ${request.file.name}…`;
-    case 'update': return 'Working…';
-    case 'save': return 'Writing…';
+    case 'open':
+      return `Opening ${request.file.name}…`;
+    case 'addField':
+      return `Reading ${request.file.name}…`;
+    case 'update':
+      return 'Working…';
+    case 'save':
+      return 'Writing…';
   }
 }
 
 function show(part: Part): void {
   switch (part.kind) {
-    case 'mesh': return showNewMesh(part);
-    case 'fields': return controls.setFields(part.fields);
-    case 'values': return showValues(part);
+    case 'mesh':
+      return showNewMesh(part);
+    case 'fields':
+      return controls.setFields(part.fields);
+    case 'values':
+      return showValues(part);
     case 'critical':
       panels[part.side].viewer?.setCritical(part.vertices, part.kinds);
       if (shown) panels[part.side].setCounts(part.counts, shown.topology);
@@ -100,7 +116,8 @@ function show(part: Part): void {
     case 'report':
       controls.setSaveable(true);
       return showReport(part.report, part.milliseconds);
-    case 'saved': return download(part.name, part.bytes);
+    case 'saved':
+      return download(part.name, part.bytes);
   }
 }
 

@@ -46,9 +46,10 @@ export class Panel {
     const euler = this.part('euler');
     const holds = indexSum === eulerCharacteristic;
     euler.classList.toggle('wrong', indexSum !== null && !holds);
-    euler.textContent = indexSum === null
-      ? `χ = ${whole(eulerCharacteristic)}, checked at δ = 0`
-      : `${sum} = ${whole(indexSum)} ${holds ? '= χ ✓' : `≠ χ = ${whole(eulerCharacteristic)} ✗`}`;
+    euler.textContent =
+      indexSum === null
+        ? `χ = ${whole(eulerCharacteristic)}, checked at δ = 0`
+        : `${sum} = ${whole(indexSum)} ${holds ? '= χ ✓' : `≠ χ = ${whole(eulerCharacteristic)} ✗`}`;
   }
 
   clear(text: string): void {

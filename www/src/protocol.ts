@@ -63,7 +63,14 @@ export type Part =
   | { kind: 'fields'; fields: FieldEntry[] }
   /** A new field: whatever was shown as its smoothed version is out of date. */
   | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array<ArrayBuffer> }
-  | { kind: 'critical'; side: Side; vertices: Uint32Array<ArrayBuffer>; kinds: Int8Array<ArrayBuffer>; counts: CriticalCounts; delta: number }
+  | {
+      kind: 'critical';
+      side: Side;
+      vertices: Uint32Array<ArrayBuffer>;
+      kinds: Int8Array<ArrayBuffer>;
+      counts: CriticalCounts;
+      delta: number;
+    }
   | { kind: 'lines'; side: Side; segments: Float32Array<ArrayBuffer>; levels: number[] }
   | { kind: 'report'; report: SmoothReport; milliseconds: number }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };
@@ -72,6 +79,8 @@ export type Reply =
   /** The WebAssembly module is loaded; nothing is answered before. */
   | { kind: 'started'; version: string }
   | { kind: 'part'; part: Part }
+  /** How far a long computation has come, 0 to 1. */
+  | { kind: 'progress'; fraction: number }
   /** `settings` is what the worker holds now, so that the controls can go back to it after a failure; null before the first mesh. */
   | { kind: 'done'; settings: Settings | null }
   | { kind: 'failed'; failure: Failure; settings: Settings | null };

@@ -31,14 +31,19 @@ export class Session {
   /** Key of the settings behind each thing that the page holds. */
   private readonly sent = new Map<string, string>();
 
-  constructor(file: MeshFile, name: string) {
+  constructor(
+    file: MeshFile,
+    name: string,
+    private readonly onProgress: (fraction: number) => void,
+  ) {
     this.file = file;
     this.mesh = file.mesh;
     this.name = name;
     this.positions = file.mesh.positions();
     this.placement = placementOf(this.positions);
     this.entries = [];
-    for (const [label, values] of Object.entries(file.fields)) this.enter({ key: `file:${label}`, label, origin: 'file' }, values);
+    for (const [label, values] of Object.entries(file.fields))
+      this.enter({ key: `file:${label}`, label, origin: 'file' }, values);
     // A mesh without any field still has something to look at: its own coordinates.
     AXES.forEach((axis, offset) => {
       const values = new Float64Array(this.mesh.vertexCount);
@@ -111,7 +116,9 @@ export class Session {
       return { kind: 'values', side: 'before', label: this.labelOf(field), range, shades: shadesOf(values, range) };
     });
     stage('before.critical', `${field} ${wanted.delta} ${wanted.link}`, () => this.critical('before', values, wanted));
-    stage('before.lines', `${field} ${wanted.levels}`, () => this.lines('before', values, levelsOf(values, wanted.levels)));
+    stage('before.lines', `${field} ${wanted.levels}`, () =>
+      this.lines('before', values, levelsOf(values, wanted.levels)),
+    );
 
     announce?.();
     if (keys.some(([slot]) => slot === 'values')) {
@@ -131,7 +138,7 @@ export class Session {
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       const start = performance.now();
       // Kept for the mesh: its operators and symbolic factors serve every ε and every field.
-      this.smoother ??= new Smoother(this.mesh);
+      this.smoother ??= new Smoother(this.mesh, { onProgress: ({ fraction }) => this.onProgress(fraction) });
       const { values, report } = this.smoother.tikhonov(before, { epsilon: wanted.epsilon, metric: wanted.metric });
       const milliseconds = performance.now() - start;
       this.smoothed = values;
@@ -158,8 +165,12 @@ export class Session {
   private critical(side: Side, values: Float64Array, { delta, link }: Settings): Part {
     const found = this.mesh.criticalPoints(values, { delta, link });
     return {
-      kind: 'critical', side, delta, counts: found.counts,
-      vertices: new Uint32Array(found.vertices), kinds: new Int8Array(found.kinds),
+      kind: 'critical',
+      side,
+      delta,
+      counts: found.counts,
+      vertices: new Uint32Array(found.vertices),
+      kinds: new Int8Array(found.kinds),
     };
   }
 

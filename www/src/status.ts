@@ -19,7 +19,15 @@ export class Status {
   working(what: string): void {
     this.root.dataset['state'] = 'working';
     this.line.textContent = what;
-    if (!this.timer) this.timer = window.setTimeout(() => { this.stop.hidden = false; }, STOP_AFTER);
+    if (!this.timer)
+      this.timer = window.setTimeout(() => {
+        this.stop.hidden = false;
+      }, STOP_AFTER);
+  }
+
+  /** Only where it takes long enough to be read. */
+  progress(fraction: number): void {
+    if (!this.stop.hidden) this.line.textContent = `Working… ${Math.round(100 * fraction)} %`;
   }
 
   /** Nothing is under way: ready, or in error for as long as the notice stands. */

@@ -1,7 +1,25 @@
 /** One 3D view: the surface coloured by a field, its level sets, its critical points. Draws only when something changed. */
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DataTexture, DirectionalLight, DoubleSide, Group, LinearFilter, LineBasicMaterial,
-  LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer, WireframeGeometry,
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  LinearFilter,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  PerspectiveCamera,
+  Scene,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+  WireframeGeometry,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
@@ -55,10 +73,22 @@ export class Viewer {
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
 
     // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
-    const material = new MeshLambertMaterial({ map: this.texture, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 4 });
+    const material = new MeshLambertMaterial({
+      map: this.texture,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1.5,
+      polygonOffsetUnits: 4,
+    });
     this.surface = new Mesh(new BufferGeometry(), material);
-    this.lines = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color: 0x0d1320, linewidth: 1.6, transparent: true, opacity: 0.85 }));
-    this.edges = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x0d1320, transparent: true, opacity: 0.22 }));
+    this.lines = new LineSegments2(
+      new LineSegmentsGeometry(),
+      new LineMaterial({ color: 0x0d1320, linewidth: 1.6, transparent: true, opacity: 0.85 }),
+    );
+    this.edges = new LineSegments(
+      new BufferGeometry(),
+      new LineBasicMaterial({ color: 0x0d1320, transparent: true, opacity: 0.22 }),
+    );
     this.model.add(this.surface, this.lines, this.edges, this.glyphs.group);
     this.model.visible = false;
     this.scene.add(this.model, this.camera, new AmbientLight(0xffffff, 2.3));
@@ -140,27 +170,39 @@ export class Viewer {
     this.applyLayers();
   }
 
-  /** Looks from `direction` (of the scene, y up) at the whole mesh, as near as it fits. */
+  /** Looks from `direction` (of the scene, y up) at the whole mesh, as near as it fits, with its picture in the middle. */
   frameMesh(direction: readonly [number, number, number]): void {
     if (!this.mesh) return;
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.set(...direction).normalize();
-    this.camera.lookAt(0, 0, 0);
-    this.camera.updateMatrixWorld();
+    const { camera, controls } = this;
+    camera.position.set(...direction).normalize();
+    camera.lookAt(0, 0, 0);
+    camera.updateMatrixWorld();
     this.model.updateMatrixWorld();
-    const toCamera = this.camera.matrixWorldInverse.clone().setPosition(0, 0, 0).multiply(this.model.matrixWorld);
+    const turn = camera.matrixWorldInverse.clone().setPosition(0, 0, 0).multiply(this.model.matrixWorld);
     const tangentY = Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
-    const tangentX = tangentY * this.camera.aspect;
-    const { positions } = this.mesh;
-    const point = new Vector3();
-    let distance = 0;
-    for (let i = 0; i < positions.length; i += 3) {
-      point.fromArray(positions, i).applyMatrix4(toCamera);
-      distance = Math.max(distance, point.z + Math.abs(point.x) / tangentX, point.z + Math.abs(point.y) / tangentY);
-    }
-    this.camera.position.multiplyScalar(MARGIN * (distance || 3));
-    this.controls.update();
+    const tangentX = tangentY * camera.aspect;
+    // A point (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan ≤ a + d·tan; likewise the other edges.
+    const [right, left, top, bottom] = this.reaches(turn, tangentX, tangentY);
+    const distance = Math.max((right + left) / (2 * tangentX), (top + bottom) / (2 * tangentY), 0.1);
+    const shift = new Vector3((right - left) / 2, (top - bottom) / 2, 0).applyQuaternion(camera.quaternion);
+    camera.position.multiplyScalar(MARGIN * distance).add(shift);
+    controls.target.copy(shift);
+    controls.update();
     this.draw();
+  }
+
+  private reaches(turn: Matrix4, tangentX: number, tangentY: number): [number, number, number, number] {
+    const reach: [number, number, number, number] = [-Infinity, -Infinity, -Infinity, -Infinity];
+    const { positions } = this.mesh!;
+    const point = new Vector3();
+    for (let i = 0; i < positions.length; i += 3) {
+      const { x, y, z } = point.fromArray(positions, i).applyMatrix4(turn);
+      reach[0] = Math.max(reach[0], z * tangentX + x);
+      reach[1] = Math.max(reach[1], z * tangentX - x);
+      reach[2] = Math.max(reach[2], z * tangentY + y);
+      reach[3] = Math.max(reach[3], z * tangentY - y);
+    }
+    return reach;
   }
 
   copyCamera(other: Viewer): void {
@@ -207,7 +249,10 @@ export class Viewer {
   private onKey(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const turns: Record<string, [number, number]> = {
-      ArrowLeft: [-KEY_TURN, 0], ArrowRight: [KEY_TURN, 0], ArrowUp: [0, -KEY_TURN], ArrowDown: [0, KEY_TURN],
+      ArrowLeft: [-KEY_TURN, 0],
+      ArrowRight: [KEY_TURN, 0],
+      ArrowUp: [0, -KEY_TURN],
+      ArrowDown: [0, KEY_TURN],
     };
     const offset = new Vector3().subVectors(this.camera.position, this.controls.target);
     const turn = turns[event.key];

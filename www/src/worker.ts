@@ -19,7 +19,8 @@ function post(message: Reply): void {
   if (message.kind === 'part') {
     const holders: object[] = message.part.kind === 'mesh' ? [message.part.mesh] : [message.part];
     for (const holder of holders) {
-      for (const value of Object.values(holder)) if (ArrayBuffer.isView(value)) transfer.push(value.buffer as ArrayBuffer);
+      for (const value of Object.values(holder))
+        if (ArrayBuffer.isView(value)) transfer.push(value.buffer as ArrayBuffer);
     }
   }
   scope.postMessage(message, transfer);
@@ -29,7 +30,8 @@ const send = (part: Part): void => post({ kind: 'part', part });
 
 /** A new mesh takes the old one's place only once its first field has been classified. */
 async function open({ file, added, settings, smooth }: Extract<Request, { kind: 'open' }>): Promise<void> {
-  const opened = new Session(readMesh(await bytesOf(file), { fileName: file.name }), file.name);
+  const read = readMesh(await bytesOf(file), { fileName: file.name });
+  const opened = new Session(read, file.name, (fraction) => post({ kind: 'progress', fraction }));
   try {
     for (const field of added) opened.addField(field.name, await fieldOf(field));
     opened.updateBefore(settings, send, () => {
@@ -66,10 +68,14 @@ async function fieldOf(file: File): Promise<Float64Array> {
 
 async function answer(request: Request): Promise<void> {
   switch (request.kind) {
-    case 'open': return open(request);
-    case 'addField': return addField(request);
-    case 'update': return session ? update(session, request.settings) : undefined;
-    case 'save': return session?.save(send);
+    case 'open':
+      return open(request);
+    case 'addField':
+      return addField(request);
+    case 'update':
+      return session ? update(session, request.settings) : undefined;
+    case 'save':
+      return session?.save(send);
   }
 }
 
@@ -77,7 +83,14 @@ async function main(): Promise<void> {
   try {
     await init();
   } catch (error) {
-    post({ kind: 'failed', failure: { code: 'NotLoaded', message: `The WebAssembly module could not be loaded. ${failureOf(error).message}` }, settings: null });
+    post({
+      kind: 'failed',
+      failure: {
+        code: 'NotLoaded',
+        message: `The WebAssembly module could not be loaded. ${failureOf(error).message}`,
+      },
+      settings: null,
+    });
     return;
   }
   // The page sends the next request only after the answer to the last, so that none of them overlap.
