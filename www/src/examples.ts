@@ -39,7 +39,7 @@ export const EXAMPLES: readonly Example[] = [
     field: 'file:geoid_m',
     epsilon: 0.1,
     levels: 14,
-    view: [-0.3, 0.3, -0.95],
+    view: [0.3, 0.25, 0.95],
     up: 'z',
   },
   {

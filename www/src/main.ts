@@ -226,4 +226,5 @@ function resetView(): void {
 
 setColormap('viridis');
 acceptDrops(openFiles);
-void openExample(OPENING);
+// An address can name the example to open: …/#torus.
+void openExample(EXAMPLES.find(({ id }) => location.hash === `#${id}`) ?? OPENING);
