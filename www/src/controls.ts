@@ -69,7 +69,7 @@ export class Controls {
   }
 
   write(settings: Settings): void {
-    this.chooseField(settings.field);
+    this.field.value = settings.field;
     this.metric.value = settings.metric;
     this.link.value = settings.link;
     this.levels.value = String(settings.levels);
@@ -77,8 +77,7 @@ export class Controls {
     this.writeDelta(settings.delta);
   }
 
-  setFields(fields: readonly FieldEntry[]): void {
-    const chosen = this.field.value;
+  setFields(fields: readonly FieldEntry[], chosen: string): void {
     this.field.replaceChildren();
     for (const [origin, title] of ORIGINS) {
       const members = fields.filter((entry) => entry.origin === origin);
@@ -88,11 +87,7 @@ export class Controls {
       for (const { key, label } of members) group.append(new Option(label, key));
       this.field.append(group);
     }
-    this.chooseField(chosen);
-  }
-
-  chooseField(key: string): void {
-    this.field.value = key;
+    this.field.value = chosen;
   }
 
   /** `null` for a mesh of the user's own, whose name takes the example's place in the list. */

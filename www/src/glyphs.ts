@@ -36,7 +36,7 @@ const SHAPES: Record<Kind, () => BufferGeometry> = {
 
 /** Radius for which the glyphs cover about an eighth of the surface when they are many, and a set size when they are few. */
 export function glyphRadius(area: number, count: number): number {
-  return Math.max(0.004, Math.min(0.019, 0.2 * Math.sqrt(area / Math.max(1, count))));
+  return Math.max(0.004, Math.min(0.017, 0.2 * Math.sqrt(area / Math.max(1, count))));
 }
 
 export class GlyphLayer {
@@ -76,7 +76,7 @@ export class GlyphLayer {
       const matrix = new Matrix4();
       members.forEach((vertex, k) => {
         normal.fromArray(normals, 3 * vertex);
-        place.fromArray(positions, 3 * vertex).addScaledVector(normal, 0.6 * radius);
+        place.fromArray(positions, 3 * vertex).addScaledVector(normal, 0.45 * radius);
         turn.setFromUnitVectors(up, normal.lengthSq() > 0 ? normal : up);
         solid.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(radius)));
         hull.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(1.28 * radius)));

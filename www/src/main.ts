@@ -61,8 +61,9 @@ const client = new Client({
   working: (request) => status.working(describe(request)),
   done: (request, settings) => {
     if (request.kind === 'addField') source?.added.push(request.file);
+    if (request.kind === 'open' && !request.smooth)
+      panels.after.say('Stopped. Another ε, metric or field smooths again.');
     if (settings) accepted = settings;
-    if (!client.busy) controls.chooseField(accepted.field);
     status.dismiss();
   },
   failed: (_request, failure, settings) => {
@@ -102,7 +103,7 @@ function show(part: Part): void {
     case 'mesh':
       return showNewMesh(part);
     case 'fields':
-      return controls.setFields(part.fields);
+      return controls.setFields(part.fields, part.chosen);
     case 'values':
       return showValues(part);
     case 'critical':

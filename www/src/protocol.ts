@@ -60,7 +60,7 @@ export type Request =
 
 export type Part =
   | { kind: 'mesh'; summary: MeshSummary; mesh: DisplayMesh }
-  | { kind: 'fields'; fields: FieldEntry[] }
+  | { kind: 'fields'; fields: FieldEntry[]; chosen: string }
   /** A new field: whatever was shown as its smoothed version is out of date. */
   | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array<ArrayBuffer> }
   | {

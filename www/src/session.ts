@@ -28,6 +28,8 @@ export class Session {
   private readonly fields = new Map<string, Float64Array>();
   private smoother: Smoother | null = null;
   private smoothed: Float64Array | null = null;
+  /** Key of a smoothing that is not to be tried again, since it took too long. */
+  private leftOut: string | null = null;
   /** Key of the settings behind each thing that the page holds. */
   private readonly sent = new Map<string, string>();
 
@@ -52,7 +54,7 @@ export class Session {
     });
   }
 
-  describe(send: Send): void {
+  describe(send: Send, chosen: string): void {
     const { vertexCount, edgeCount, triangleCount, topology } = this.mesh;
     const { format, warnings } = this.file;
     send({
@@ -60,12 +62,16 @@ export class Session {
       summary: { name: this.name, format, vertexCount, edgeCount, triangleCount, topology, warnings },
       mesh: displayMesh(this.mesh, this.positions, this.placement),
     });
-    this.sendFields(send);
+    this.sendFields(send, chosen);
   }
 
-  /** The wanted field if there is one of that key, else the first one. */
-  fieldKey(wanted: string): string {
-    return this.fields.has(wanted) ? wanted : this.entries[0]!.key;
+  sendFields(send: Send, chosen: string): void {
+    send({ kind: 'fields', fields: [...this.entries], chosen });
+  }
+
+  /** What to try to open the mesh with: the wanted field, or all of them where there is none of that key. */
+  candidates(wanted: string): string[] {
+    return this.fields.has(wanted) ? [wanted] : this.entries.map(({ key }) => key);
   }
 
   /** Refuses a field of the wrong length with both numbers, before anything else sees it. */
@@ -95,6 +101,11 @@ export class Session {
     send({ kind: 'saved', name: `${stem}_smoothed.ply`, bytes: new Uint8Array(bytes) });
   }
 
+  /** The page goes on without a smoothed field until something that it depends on changes. */
+  leaveOut(): void {
+    if (this.settings) this.leftOut = smoothingKey(this.settings);
+  }
+
   free(): void {
     this.smoother?.free();
     this.mesh.free();
@@ -102,7 +113,7 @@ export class Session {
 
   /** `announce` runs when the field has proved usable and nothing has been sent yet. */
   updateBefore(wanted: Settings, send: Send, announce?: () => void): void {
-    const field = this.fieldKey(wanted.field);
+    const field = this.known(wanted.field);
     const values = this.fields.get(field)!;
     const parts: Part[] = [];
     const keys: [string, string][] = [];
@@ -132,9 +143,11 @@ export class Session {
   }
 
   updateAfter(wanted: Settings, send: Send): void {
-    const field = this.fieldKey(wanted.field);
+    const field = this.known(wanted.field);
     const before = this.fields.get(field)!;
-    const key = `${field} ${wanted.metric} ${wanted.epsilon}`;
+    const key = smoothingKey({ ...wanted, field });
+    if (key === this.leftOut) return;
+    this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       const start = performance.now();
       // Kept for the mesh: its operators and symbolic factors serve every ε and every field.
@@ -187,13 +200,18 @@ export class Session {
     this.fields.set(entry.key, values);
   }
 
-  sendFields(send: Send): void {
-    send({ kind: 'fields', fields: [...this.entries] });
+  /** A request may have been made while another mesh, with other fields, was still shown. */
+  private known(field: string): string {
+    return this.fields.has(field) ? field : (this.settings?.field ?? this.entries[0]!.key);
   }
 
   private labelOf(key: string): string {
     return this.entries.find((entry) => entry.key === key)?.label ?? key;
   }
+}
+
+function smoothingKey({ field, metric, epsilon }: Settings): string {
+  return `${field} ${metric} ${epsilon}`;
 }
 
 /**

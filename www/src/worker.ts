@@ -28,28 +28,45 @@ function post(message: Reply): void {
 
 const send = (part: Part): void => post({ kind: 'part', part });
 
-/** A new mesh takes the old one's place only once its first field has been classified. */
+/**
+ * A new mesh takes the old one's place only once one of its fields has been classified. Where that is not the first one, it
+ * opens all the same, and what was wrong with the first is said in the end.
+ */
 async function open({ file, added, settings, smooth }: Extract<Request, { kind: 'open' }>): Promise<void> {
   const read = readMesh(await bytesOf(file), { fileName: file.name });
   const opened = new Session(read, file.name, (fraction) => post({ kind: 'progress', fraction }));
+  const troubles: unknown[] = [];
   try {
     for (const field of added) opened.addField(field.name, await fieldOf(field));
-    opened.updateBefore(settings, send, () => {
-      session?.free();
-      session = opened;
-      opened.describe(send);
+    const usable = opened.candidates(settings.field).find((field) => {
+      try {
+        begin(opened, { ...settings, field });
+        return true;
+      } catch (error) {
+        troubles.push(error);
+        return false;
+      }
     });
-    if (smooth) opened.updateAfter(settings, send);
-  } catch (error) {
+    if (usable !== undefined && smooth) opened.updateAfter({ ...settings, field: usable }, send);
+    if (usable !== undefined && !smooth) opened.leaveOut();
+  } finally {
     if (session !== opened) opened.free();
-    throw error;
   }
+  if (troubles.length > 0) throw troubles[0];
+}
+
+function begin(opened: Session, settings: Settings): void {
+  opened.updateBefore(settings, send, () => {
+    session?.free();
+    session = opened;
+    opened.describe(send, settings.field);
+  });
 }
 
 async function addField({ file, settings }: Extract<Request, { kind: 'addField' }>): Promise<void> {
   if (!session) throw new Refusal('NoMesh', 'Open a mesh before adding a field to it.');
   const key = session.addField(file.name, await fieldOf(file));
-  session.sendFields(send);
+  session.sendFields(send, key);
   update(session, { ...settings, field: key });
 }
 
