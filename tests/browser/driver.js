@@ -130,14 +130,15 @@ export class Page {
     }, picture.toString('base64'));
   }
 
-  /** Elements that stick out of the page sideways. */
+  /** Elements that stick out of the page sideways, or out of the view that they are in. */
   overflow() {
     return this.page.evaluate(() => {
       const width = document.documentElement.clientWidth;
       return [...document.body.querySelectorAll('*')]
         .filter((element) => {
           const { left, right, width: own } = element.getBoundingClientRect();
-          return own > 0 && (left < -0.5 || right > width + 0.5);
+          const view = element.closest('.view')?.getBoundingClientRect() ?? { left: 0, right: width };
+          return own > 0 && (left < view.left - 0.5 || right > view.right + 0.5);
         })
         .map((element) => element.outerHTML.slice(0, 80));
     });

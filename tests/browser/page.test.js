@@ -76,6 +76,14 @@ describe('opening', () => {
     expect(await page.page.locator('aside').evaluate((aside) => aside.scrollHeight <= aside.clientHeight)).toBe(true);
   });
 
+  test('nothing is cut off at any width', async () => {
+    await openTorus();
+    for (const width of [320, 500, 768, 920, 1000, 1100, 1280, 1600, 1920]) {
+      await page.page.setViewportSize({ width, height: 800 });
+      expect(await page.overflow(), `${width} wide`).toEqual([]);
+    }
+  });
+
   test('every example opens, and its indices sum to its Euler characteristic', async () => {
     await open();
     const ids = await page

@@ -31,8 +31,12 @@ type Kind = keyof typeof COLOURS;
 const SHAPES: Record<Kind, () => BufferGeometry> = {
   [MINIMUM]: () => new BoxGeometry(1.5, 1.5, 1.5),
   [SADDLE]: () => new OctahedronGeometry(1.15),
-  [MAXIMUM]: () => new IcosahedronGeometry(1, 2),
+  [MAXIMUM]: () => new IcosahedronGeometry(1, 3),
 };
+
+/** Balls for a crowd, in which each is a few pixels wide: thousands of round ones would be most of the work of drawing. */
+const CROWD = 300;
+const COARSE_BALL = new IcosahedronGeometry(1, 1);
 
 /** Radius for which the glyphs cover about an eighth of the surface when they are many, and a set size when they are few. */
 export function glyphRadius(area: number, count: number): number {
@@ -67,8 +71,9 @@ export class GlyphLayer {
     for (const [kind, { geometry, body, rim }] of this.solids) {
       const members = vertices.filter((_, k) => kinds[k] === kind);
       if (members.length === 0) continue;
-      const solid = new InstancedMesh(geometry, body, members.length);
-      const hull = new InstancedMesh(geometry, rim, members.length);
+      const shape = kind === MAXIMUM && members.length > CROWD ? COARSE_BALL : geometry;
+      const solid = new InstancedMesh(shape, body, members.length);
+      const hull = new InstancedMesh(shape, rim, members.length);
       const up = new Vector3(0, 1, 0);
       const normal = new Vector3();
       const place = new Vector3();
