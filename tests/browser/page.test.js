@@ -349,6 +349,17 @@ describe('where something is missing', () => {
     page.complaints = page.complaints.filter((text) => !text.includes('WebGL'));
   });
 
+  test('once what was missing is there, the page can be tried again', async () => {
+    let offline = true;
+    const prepare = (tab) => tab.route('**/*.wasm', (route) => (offline ? route.abort() : route.continue()));
+    expect(await open({ prepare })).toBe('error');
+    expect(await page.text('notice-code')).toBe('LoadFailed');
+    offline = false;
+    expect(await page.after(() => page.at('example').selectOption('torus'))).toBe('ready');
+    expect(await page.counts('before')).toEqual(TORUS_NOISY);
+    page.complaints = page.complaints.filter((text) => !text.includes('ERR_FAILED'));
+  });
+
   for (const [what, pattern] of [
     ['the wasm file', '**/*.wasm'],
     ["the worker's script", '**/worker-*.js'],

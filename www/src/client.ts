@@ -31,7 +31,13 @@ export class Client {
     return this.current !== null || this.waiting.length > 0;
   }
 
+  /** The worker could not be started or broke down, and with it the mesh that it held. The next request starts another. */
+  get lost(): boolean {
+    return this.worker === null;
+  }
+
   run(request: Request): void {
+    if (this.lost) this.start();
     if (request.kind === 'open') this.waiting = [];
     if (request.kind === 'update') this.waiting = this.waiting.filter(({ kind }) => kind !== 'update');
     this.waiting.push(request);
@@ -48,11 +54,7 @@ export class Client {
 
   private start(): void {
     this.ready = false;
-    const broken = (message: string): void => {
-      this.worker?.terminate();
-      this.worker = null;
-      this.finish({ kind: 'failed', failure: { code: 'WorkerFailed', message }, settings: null });
-    };
+    const broken = (message: string): void => this.lose({ code: 'WorkerFailed', message });
     try {
       this.worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'morse-smooth' });
     } catch (error) {
@@ -64,14 +66,14 @@ export class Client {
     }
     this.worker.onmessage = ({ data }: MessageEvent<Reply>) => this.receive(data);
     this.worker.onmessageerror = () =>
-      broken('The background worker sent something unreadable. Reload the page to go on.');
+      broken('The background worker sent something unreadable. Try again, or reload the page.');
     // A worker script that cannot be loaded gives an event without a message.
     this.worker.onerror = (event) => {
       event.preventDefault();
       broken(
         event.message
           ? `The background worker stopped: ${event.message}`
-          : 'The background worker could not be loaded. Reload the page to try again.',
+          : 'The background worker could not be loaded. Try again, or reload the page.',
       );
     };
   }
@@ -85,10 +87,20 @@ export class Client {
         return this.events.part(reply.part);
       case 'progress':
         return this.events.progress(reply.fraction);
-      case 'done':
       case 'failed':
+        // Without its WebAssembly module a worker is of no use.
+        if (!this.ready) return this.lose(reply.failure);
+        return this.finish(reply);
+      case 'done':
         return this.finish(reply);
     }
+  }
+
+  private lose(failure: Failure): void {
+    this.worker?.terminate();
+    this.worker = null;
+    this.waiting = [];
+    this.finish({ kind: 'failed', failure, settings: null });
   }
 
   private finish(reply: Extract<Reply, { kind: 'done' | 'failed' }>): void {

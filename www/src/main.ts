@@ -44,14 +44,14 @@ let accepted: Settings = INITIAL;
 let choice = 0;
 
 const controls = new Controls(EXAMPLES, INITIAL, {
-  settings: () => client.run({ kind: 'update', settings: controls.read() }),
+  settings: () => ask({ kind: 'update', settings: controls.read() }),
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
   colormap: setColormap,
   example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
   meshFile: (file) => openFiles([file]),
   fieldFile: addField,
   resetView,
-  save: () => client.run({ kind: 'save' }),
+  save: () => ask({ kind: 'save' }),
   stop,
 });
 
@@ -160,6 +160,12 @@ function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
 
 // ---------------------------------------------------------------- what the user asks for
 
+/** For the mesh that is open: a worker that broke down has to be given it again. */
+function ask(request: Request): void {
+  if (client.lost && source) open(source, accepted, !panels.after.awaiting);
+  client.run(request);
+}
+
 function open(next: Source, settings: Settings, smooth = true): void {
   client.run({ kind: 'open', file: next.file, added: next.added, settings, smooth });
 }
@@ -192,7 +198,7 @@ function openFiles(files: File[]): void {
 }
 
 function addField(file: File): void {
-  client.run({ kind: 'addField', file, settings: controls.read() });
+  ask({ kind: 'addField', file, settings: controls.read() });
 }
 
 /** A worker that computes cannot listen: ending it is the only way to make it stop. */

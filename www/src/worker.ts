@@ -100,14 +100,7 @@ async function main(): Promise<void> {
   try {
     await init();
   } catch (error) {
-    post({
-      kind: 'failed',
-      failure: {
-        code: 'NotLoaded',
-        message: `The WebAssembly module could not be loaded. ${failureOf(error).message}`,
-      },
-      settings: null,
-    });
+    post({ kind: 'failed', failure: failureOf(error), settings: null });
     return;
   }
   // The page sends the next request only after the answer to the last, so that none of them overlap.
