@@ -1,0 +1,180 @@
+/** The form: reads settings from it, writes settings into it, and says when the user changed something. */
+import type { Link, Metric } from 'morse-smooth';
+import { COLORMAPS } from './colormap';
+import type { ColormapName } from './colormap';
+import { element } from './dom';
+import type { Example } from './examples';
+import type { FieldEntry, Settings } from './protocol';
+import type { Layers } from './viewer';
+
+const EPSILON_RANGE = [1e-6, 1e4] as const;
+const DELTA_RANGE = [0, 0.5] as const;
+const LEVELS_RANGE = [0, 60] as const;
+
+const ORIGINS: readonly [FieldEntry['origin'], string][] = [
+  ['added', 'Added'],
+  ['file', 'In the file'],
+  ['coordinate', 'Coordinates'],
+];
+
+export interface ControlEvents {
+  settings(): void;
+  layers(layers: Layers): void;
+  colormap(name: ColormapName): void;
+  example(id: string): void;
+  meshFile(file: File): void;
+  fieldFile(file: File): void;
+  resetView(): void;
+  save(): void;
+  stop(): void;
+}
+
+const input = (id: string): HTMLInputElement => element(`#${id}`, HTMLInputElement);
+const select = (id: string): HTMLSelectElement => element(`#${id}`, HTMLSelectElement);
+const clamp = (value: number, [low, high]: readonly [number, number]): number => Math.min(high, Math.max(low, value));
+
+export class Controls {
+  private readonly epsilon = input('epsilon');
+  private readonly epsilonNumber = input('epsilon-number');
+  private readonly delta = input('delta');
+  private readonly deltaNumber = input('delta-number');
+  private readonly levels = input('levels');
+  private readonly field = select('field');
+  private readonly metric = select('metric');
+  private readonly link = select('link');
+  private readonly example = select('example');
+
+  constructor(
+    examples: readonly Example[],
+    private readonly initial: Settings,
+    private readonly events: ControlEvents,
+  ) {
+    for (const { id, label } of examples) this.example.add(new Option(label, id));
+    this.write(initial);
+    this.wireSettings();
+    this.wireDisplay();
+    this.wireFiles();
+  }
+
+  /** The number boxes hold the exact values; the sliders follow them to their nearest step. */
+  read(): Settings {
+    return {
+      field: this.field.value,
+      metric: this.metric.value as Metric,
+      epsilon: Number(this.epsilonNumber.value),
+      delta: Number(this.deltaNumber.value),
+      link: this.link.value as Link,
+      levels: Number(this.levels.value),
+    };
+  }
+
+  write(settings: Settings): void {
+    this.field.value = settings.field;
+    this.metric.value = settings.metric;
+    this.link.value = settings.link;
+    this.levels.value = String(settings.levels);
+    this.writeEpsilon(settings.epsilon);
+    this.writeDelta(settings.delta);
+  }
+
+  setFields(fields: readonly FieldEntry[], chosen: string): void {
+    this.field.replaceChildren();
+    for (const [origin, title] of ORIGINS) {
+      const members = fields.filter((entry) => entry.origin === origin);
+      if (members.length === 0) continue;
+      const group = document.createElement('optgroup');
+      group.label = title;
+      for (const { key, label } of members) group.append(new Option(label, key));
+      this.field.append(group);
+    }
+    this.field.value = chosen;
+  }
+
+  /** `null` for a mesh of the user's own, whose name takes the example's place in the list. */
+  showSource(id: string | null, name: string): void {
+    this.example.querySelector('option[value=""]')?.remove();
+    if (id === null) this.example.prepend(new Option(name, ''));
+    this.example.value = id ?? '';
+  }
+
+  setSaveable(saveable: boolean): void {
+    element('#save', HTMLButtonElement).disabled = !saveable;
+  }
+
+  private writeEpsilon(value: number): void {
+    const epsilon = clamp(value, EPSILON_RANGE);
+    this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
+    this.epsilon.value = String(Math.log10(epsilon));
+    this.epsilon.setAttribute('aria-valuetext', this.epsilonNumber.value);
+  }
+
+  private writeDelta(value: number): void {
+    const delta = clamp(value, DELTA_RANGE);
+    this.deltaNumber.value = String(Number(delta.toPrecision(6)));
+    this.delta.value = String(delta);
+  }
+
+  private wireSettings(): void {
+    const { events } = this;
+    // Sliders report while they move; the client drops what a newer position makes stale.
+    this.epsilon.addEventListener('input', () => {
+      this.writeEpsilon(Number((10 ** Number(this.epsilon.value)).toPrecision(3)));
+      events.settings();
+    });
+    this.delta.addEventListener('input', () => {
+      this.writeDelta(Number(this.delta.value));
+      events.settings();
+    });
+    const number = (box: HTMLInputElement, fallback: number, write: (value: number) => void): void => {
+      box.addEventListener('change', () => {
+        write(Number.isFinite(box.valueAsNumber) ? box.valueAsNumber : fallback);
+        events.settings();
+      });
+    };
+    number(this.epsilonNumber, this.initial.epsilon, (value) => this.writeEpsilon(value));
+    number(this.deltaNumber, this.initial.delta, (value) => this.writeDelta(value));
+    number(this.levels, this.initial.levels, (value) => {
+      this.levels.value = String(Math.round(clamp(value, LEVELS_RANGE)));
+    });
+    for (const choice of [this.field, this.metric, this.link])
+      choice.addEventListener('change', () => events.settings());
+    element('#controls', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
+  }
+
+  private wireDisplay(): void {
+    const { events } = this;
+    const glyphs = input('show-glyphs');
+    const levels = input('show-levels');
+    const edges = input('show-edges');
+    for (const box of [glyphs, levels, edges]) {
+      box.addEventListener('change', () =>
+        events.layers({ glyphs: glyphs.checked, levels: levels.checked, edges: edges.checked }),
+      );
+    }
+    const colormap = select('colormap');
+    colormap.addEventListener('change', () =>
+      events.colormap(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0]),
+    );
+    element('#reset-view', HTMLButtonElement).addEventListener('click', () => events.resetView());
+  }
+
+  private wireFiles(): void {
+    const { events } = this;
+    this.example.addEventListener('change', () => {
+      if (this.example.value) events.example(this.example.value);
+    });
+    const picker = (id: string, use: (file: File) => void): void => {
+      const box = input(id);
+      box.addEventListener('change', () => {
+        const file = box.files?.[0];
+        // Emptied, so that choosing the same file again is a change again.
+        box.value = '';
+        if (file) use(file);
+      });
+    };
+    picker('open-mesh', (file) => events.meshFile(file));
+    picker('open-field', (file) => events.fieldFile(file));
+    element('#save', HTMLButtonElement).addEventListener('click', () => events.save());
+    element('#stop', HTMLButtonElement).addEventListener('click', () => events.stop());
+  }
+}

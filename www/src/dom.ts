@@ -1,0 +1,27 @@
+/** Finds what index.html promises; a missing element is a mistake of ours and is said by name. */
+export function element<T extends Element>(
+  selector: string,
+  type: abstract new (...parameters: never[]) => T,
+  root: ParentNode = document,
+): T {
+  const found = root.querySelector(selector);
+  if (!(found instanceof type)) throw new Error(`the page has no ${type.name} at ${selector}`);
+  return found;
+}
+
+/** Three significant digits, with an exponent only where the plain number would be long. */
+export function short(value: number): string {
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3)
+    return value
+      .toExponential(size >= 1e5 ? 2 : 1)
+      .replace('e+', 'e')
+      .replace('-', '−')
+      .replace('e-', 'e−');
+  return Number(value.toPrecision(3)).toString().replace('-', '−');
+}
+
+export function whole(value: number): string {
+  return value.toLocaleString('en').replace('-', '−');
+}

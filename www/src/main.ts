@@ -1,0 +1,237 @@
+/** The page: joins the controls, the worker and the two views. What is computed, and when, is the worker's business. */
+import { Client } from './client';
+import { colormapBytes } from './colormap';
+import type { ColormapName } from './colormap';
+import { Controls } from './controls';
+import { acceptDrops, isFieldName } from './drop';
+import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
+import type { Example } from './examples';
+import { Legend } from './legend';
+import { Panel } from './panel';
+import type { MeshSummary, Part, Request, Settings } from './protocol';
+import { clearReport, showMesh, showReport } from './readout';
+import { Status } from './status';
+import { link } from './viewer';
+
+const OPENING = EXAMPLES[0]!;
+const INITIAL: Settings = {
+  field: '',
+  metric: 'mass',
+  epsilon: OPENING.epsilon,
+  delta: 0,
+  link: 'consecutive',
+  levels: OPENING.levels,
+};
+
+/** What was opened last, kept so that it can be given to a new worker. */
+interface Source {
+  file: File;
+  example: Example | null;
+  added: File[];
+}
+
+const status = new Status();
+const legend = new Legend();
+const panels = { before: new Panel('before'), after: new Panel('after') };
+if (panels.before.viewer && panels.after.viewer) link(panels.before.viewer, panels.after.viewer);
+
+let source: Source | null = null;
+/** Becomes `source` when the worker has accepted it. */
+let offered: Source | null = null;
+let shown: MeshSummary | null = null;
+let accepted: Settings = INITIAL;
+/** Counts examples asked for, so that a slow download does not overtake a later choice. */
+let choice = 0;
+
+const controls = new Controls(EXAMPLES, INITIAL, {
+  settings: () => ask({ kind: 'update', settings: controls.read() }),
+  layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
+  colormap: setColormap,
+  example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
+  meshFile: (file) => openFiles([file]),
+  fieldFile: addField,
+  resetView,
+  save: () => ask({ kind: 'save' }),
+  stop,
+});
+
+const client = new Client({
+  part: show,
+  progress: (fraction) => status.progress(fraction),
+  working: (request) => status.working(describe(request)),
+  done: (request, settings) => {
+    if (request.kind === 'addField') source?.added.push(request.file);
+    if (request.kind === 'open' && !request.smooth)
+      panels.after.say('Stopped. Another ε, metric or field smooths again.');
+    if (settings) accepted = settings;
+    status.dismiss();
+  },
+  failed: (_request, failure, settings) => {
+    status.fail(failure);
+    offered = null;
+    if (settings) accepted = settings;
+    // Back to what is shown, unless the user has already asked for something else.
+    if (settings && !client.busy) controls.write(settings);
+    showSource();
+    for (const panel of Object.values(panels))
+      if (panel.awaiting) panel.say(shown ? 'There is no smoothed field.' : 'No mesh is open.');
+  },
+  idle: () => status.idle(),
+});
+
+function eachViewer(use: (viewer: NonNullable<Panel['viewer']>) => void): void {
+  for (const { viewer } of Object.values(panels)) if (viewer) use(viewer);
+}
+
+// ---------------------------------------------------------------- what the worker sends
+
+function describe(request: Request): string {
+  switch (request.kind) {
+    case 'open':
+      return `Opening ${request.file.name}…`;
+    case 'addField':
+      return `Reading ${request.file.name}…`;
+    case 'update':
+      return 'Working…';
+    case 'save':
+      return 'Writing…';
+  }
+}
+
+function show(part: Part): void {
+  switch (part.kind) {
+    case 'mesh':
+      return showNewMesh(part);
+    case 'fields':
+      return controls.setFields(part.fields, part.chosen);
+    case 'values':
+      return showValues(part);
+    case 'critical':
+      panels[part.side].viewer?.setCritical(part.vertices, part.kinds);
+      if (shown) panels[part.side].setCounts(part.counts, shown.topology);
+      return;
+    case 'lines':
+      panels[part.side].viewer?.setLines(part.segments);
+      if (part.side === 'before') legend.setLevels(part.levels);
+      return;
+    case 'report':
+      controls.setSaveable(true);
+      return showReport(part.report, part.milliseconds);
+    case 'saved':
+      return download(part.name, part.bytes);
+  }
+}
+
+function showNewMesh({ summary, mesh }: Extract<Part, { kind: 'mesh' }>): void {
+  const isNew = offered !== null;
+  shown = summary;
+  source = offered ?? source;
+  offered = null;
+  showMesh(summary);
+  showSource();
+  eachViewer((viewer) => viewer.setMesh({ ...mesh, up: source?.example?.up ?? mesh.up }));
+  if (isNew) resetView();
+}
+
+function showValues({ side, label, range, shades }: Extract<Part, { kind: 'values' }>): void {
+  panels[side].setShades(label, shades);
+  if (side === 'after') return;
+  legend.setRange(label, range);
+  // The field is another one: what stands on the other side belongs to the last.
+  panels.after.clear('Smoothing…');
+  clearReport();
+  controls.setSaveable(false);
+}
+
+/** Names what is open; also puts the list back when something else could not be opened. */
+function showSource(): void {
+  if (source) controls.showSource(source.example?.id ?? null, source.file.name);
+}
+
+function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+  const anchor = document.createElement('a');
+  anchor.href = address;
+  anchor.download = name;
+  anchor.click();
+  // The browser has taken its own hold of the data by the next turn of the event loop.
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+// ---------------------------------------------------------------- what the user asks for
+
+/** For the mesh that is open: a worker that broke down has to be given it again. */
+function ask(request: Request): void {
+  if (client.lost && source) open(source, accepted, !panels.after.awaiting);
+  client.run(request);
+}
+
+function open(next: Source, settings: Settings, smooth = true): void {
+  client.run({ kind: 'open', file: next.file, added: next.added, settings, smooth });
+}
+
+async function openExample(example: Example): Promise<void> {
+  const mine = ++choice;
+  status.working(`Fetching ${example.label}…`);
+  try {
+    const file = await fetchExample(example);
+    if (mine !== choice) return;
+    const { field, epsilon, levels } = example;
+    controls.write({ ...controls.read(), epsilon, levels, delta: 0 });
+    offered = { file, example, added: [] };
+    open(offered, { ...controls.read(), field });
+  } catch (error) {
+    complain('NotFetched', `The example could not be fetched. ${error instanceof Error ? error.message : ''}`);
+  }
+}
+
+/** The mesh first, then the fields, whatever order they were dropped in. */
+function openFiles(files: File[]): void {
+  const mesh = files.find(({ name }) => !isFieldName(name));
+  if (mesh) {
+    choice += 1;
+    offered = { file: mesh, example: null, added: [] };
+    controls.write({ ...controls.read(), delta: 0 });
+    open(offered, { ...controls.read(), field: '' });
+  }
+  for (const file of files) if (isFieldName(file.name)) addField(file);
+}
+
+function addField(file: File): void {
+  ask({ kind: 'addField', file, settings: controls.read() });
+}
+
+/** A worker that computes cannot listen: ending it is the only way to make it stop. */
+function stop(): void {
+  client.restart();
+  offered = null;
+  if (source) {
+    controls.write(accepted);
+    showSource();
+    // Smoothing is left out where it was the very thing that took too long.
+    open(source, accepted, !panels.after.awaiting);
+  } else {
+    complain('Stopped', 'Nothing is open. Choose an example or open a mesh.');
+  }
+}
+
+function complain(code: string, message: string): void {
+  status.fail({ code, message });
+  showSource();
+  if (!client.busy) status.idle();
+}
+
+function setColormap(name: ColormapName): void {
+  const bytes = colormapBytes(name);
+  legend.setColormap(bytes);
+  eachViewer((viewer) => viewer.setColormap(bytes));
+}
+
+function resetView(): void {
+  panels.before.viewer?.frameMesh(source?.example?.view ?? DEFAULT_VIEW);
+}
+
+setColormap('viridis');
+acceptDrops(openFiles);
+// An address can name the example to open: …/#torus.
+void openExample(EXAMPLES.find(({ id }) => location.hash === `#${id}`) ?? OPENING);

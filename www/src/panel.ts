@@ -1,0 +1,69 @@
+/** One side of the page, before or after: its view, its counts and its check of Euler's formula. */
+import type { CriticalCounts, MeshTopology } from 'morse-smooth';
+import { element, whole } from './dom';
+import type { Side } from './protocol';
+import { Viewer } from './viewer';
+
+export class Panel {
+  /** Null where the browser has no WebGL 2: the numbers still work. */
+  readonly viewer: Viewer | null;
+  /** True while there is no field to show. */
+  awaiting = true;
+  private readonly root: HTMLElement;
+
+  constructor(side: Side) {
+    this.root = element(`[data-testid="${side}"]`, HTMLElement);
+    try {
+      this.viewer = new Viewer(element('canvas', HTMLCanvasElement, this.root));
+    } catch {
+      this.viewer = null;
+    }
+    this.say(this.viewer ? 'Loading…' : NO_GRAPHICS);
+  }
+
+  setShades(label: string, shades: Float32Array): void {
+    this.awaiting = false;
+    this.part('label').textContent = label;
+    this.viewer?.setShades(shades);
+    this.say('');
+  }
+
+  /** A sentence in place of the picture; empty for none. */
+  say(text: string): void {
+    if (!this.viewer) text = NO_GRAPHICS;
+    const empty = this.part('empty');
+    empty.textContent = text;
+    empty.hidden = text === '';
+  }
+
+  /** On every mesh the indices of all vertices add up to its Euler characteristic; on a closed one that is m + M − s. */
+  setCounts(counts: CriticalCounts, { eulerCharacteristic, closed }: MeshTopology): void {
+    const { minima, maxima, saddles, indexSum } = counts;
+    this.part('minima').textContent = whole(minima);
+    this.part('maxima').textContent = whole(maxima);
+    this.part('saddles').textContent = whole(saddles);
+    const sum = closed ? 'm + M − s' : 'Σ index';
+    const euler = this.part('euler');
+    const holds = indexSum === eulerCharacteristic;
+    euler.classList.toggle('wrong', indexSum !== null && !holds);
+    euler.textContent =
+      indexSum === null
+        ? `χ = ${whole(eulerCharacteristic)}, checked at δ = 0`
+        : `${sum} = ${whole(indexSum)} ${holds ? '= χ ✓' : `≠ χ = ${whole(eulerCharacteristic)} ✗`}`;
+  }
+
+  clear(text: string): void {
+    this.awaiting = true;
+    this.part('label').textContent = '';
+    for (const part of ['minima', 'maxima', 'saddles']) this.part(part).textContent = '–';
+    this.part('euler').textContent = '';
+    this.viewer?.clearField();
+    this.say(text);
+  }
+
+  private part(name: string): HTMLElement {
+    return element(`[data-part="${name}"]`, HTMLElement, this.root);
+  }
+}
+
+const NO_GRAPHICS = 'This browser offers no WebGL 2, so there is no picture; the numbers are computed all the same.';

@@ -1,0 +1,54 @@
+/** The facts of the mesh and the numbers of the last smoothing, as text. */
+import type { SmoothReport } from 'morse-smooth';
+import { element, short, whole } from './dom';
+import type { MeshSummary } from './protocol';
+
+const text = (id: string, value: string): void => {
+  element(`#${id}`, HTMLElement).textContent = value;
+};
+
+export function showReport(report: SmoothReport, milliseconds: number): void {
+  const { solver } = report;
+  text('read-linf', `${short(100 * report.lInfinity)} % of the range`);
+  text('read-sobolev', `${short(report.sobolevBefore)} → ${short(report.sobolevAfter)}`);
+  text('read-residual', short(solver.relativeResidual));
+  text(
+    'read-time',
+    milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`,
+  );
+  text('read-solver', solver.route);
+}
+
+export function clearReport(): void {
+  for (const id of ['read-linf', 'read-sobolev', 'read-residual', 'read-time', 'read-solver']) text(id, '–');
+}
+
+export function showMesh({ vertexCount, triangleCount, topology, warnings }: MeshSummary): void {
+  const facts = [
+    `${whole(vertexCount)} vertices`,
+    `${whole(triangleCount)} triangles`,
+    `χ = ${whole(topology.eulerCharacteristic)}`,
+  ];
+  if (topology.genus !== null) facts.push(`genus ${topology.genus}`);
+  if (topology.components !== 1) facts.push(`${whole(topology.components)} components`);
+  if (topology.boundaryLoops > 0)
+    facts.push(topology.boundaryLoops === 1 ? '1 boundary loop' : `${whole(topology.boundaryLoops)} boundary loops`);
+  if (!topology.orientable) facts.push('not orientable');
+  const nonManifold = topology.nonManifoldEdges + topology.nonManifoldVertices;
+  if (nonManifold > 0) facts.push(`${whole(nonManifold)} non-manifold edges and vertices`);
+  // Breaks between facts, never inside one.
+  text('facts', facts.map((fact) => fact.replaceAll(' ', '\u00a0')).join(' · '));
+
+  const details = element('#warnings', HTMLDetailsElement);
+  details.hidden = warnings.length === 0;
+  details.open = false;
+  element('summary', HTMLElement, details).textContent =
+    warnings.length === 1 ? '1 warning about this file' : `${warnings.length} warnings about this file`;
+  element('ul', HTMLElement, details).replaceChildren(
+    ...warnings.map(({ code, message }) => {
+      const item = document.createElement('li');
+      item.textContent = `${code}: ${message}`;
+      return item;
+    }),
+  );
+}

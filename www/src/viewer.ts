@@ -1,0 +1,278 @@
+/** One 3D view: the surface coloured by a field, its level sets, its critical points. Draws only when something changed. */
+import {
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  LinearFilter,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  PerspectiveCamera,
+  Scene,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+  WireframeGeometry,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import { GlyphLayer, glyphRadius } from './glyphs';
+import type { DisplayMesh } from './protocol';
+
+const BACKGROUND = 0xffffff;
+const FIELD_OF_VIEW = 30;
+/** Room around the mesh for glyphs on its rim. */
+const MARGIN = 1.1;
+/** Radians a key press turns the view by, and the factor it zooms by. */
+const KEY_TURN = Math.PI / 24;
+const KEY_ZOOM = 1.12;
+
+export interface Layers {
+  glyphs: boolean;
+  levels: boolean;
+  edges: boolean;
+}
+
+export class Viewer {
+  /** Called after the user has moved this view's camera. */
+  onMove: (() => void) | null = null;
+
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
+  private readonly controls: OrbitControls;
+  /** Turned so that what is "up" in the file is up on the screen. */
+  private readonly model = new Group();
+  private readonly surface: Mesh<BufferGeometry, MeshLambertMaterial>;
+  private readonly lines: LineSegments2;
+  private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
+  private readonly glyphs = new GlyphLayer();
+  private readonly texture: DataTexture;
+  private mesh: DisplayMesh | null = null;
+  private layers: Layers = { glyphs: true, levels: true, edges: false };
+  private critical: { vertices: Uint32Array; kinds: Int8Array } | null = null;
+  private frame = 0;
+
+  /** Throws where there is no WebGL 2. */
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.scene.background = new Color(BACKGROUND);
+
+    this.texture = new DataTexture(new Uint8Array(4 * 256), 256, 1);
+    this.texture.colorSpace = SRGBColorSpace;
+    this.texture.magFilter = this.texture.minFilter = LinearFilter;
+
+    // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
+    const material = new MeshLambertMaterial({
+      map: this.texture,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1.5,
+      polygonOffsetUnits: 4,
+    });
+    this.surface = new Mesh(new BufferGeometry(), material);
+    this.lines = new LineSegments2(
+      new LineSegmentsGeometry(),
+      new LineMaterial({ color: 0x0d1320, linewidth: 1.6, transparent: true, opacity: 0.85 }),
+    );
+    this.edges = new LineSegments(
+      new BufferGeometry(),
+      new LineBasicMaterial({ color: 0x0d1320, transparent: true, opacity: 0.22 }),
+    );
+    this.model.add(this.surface, this.lines, this.edges, this.glyphs.group);
+    this.model.visible = false;
+    this.scene.add(this.model, this.camera, new AmbientLight(0xffffff, 2.3));
+    // The light comes from beside the eye: shading shows the shape without hiding the colours.
+    const light = new DirectionalLight(0xffffff, 1.5);
+    light.position.set(-0.6, 0.9, 1);
+    this.camera.add(light);
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.minDistance = 0.3;
+    this.controls.maxDistance = 20;
+    this.controls.addEventListener('change', () => {
+      this.draw();
+      this.onMove?.();
+    });
+    canvas.addEventListener('keydown', (event) => this.onKey(event));
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+  }
+
+  setMesh(mesh: DisplayMesh): void {
+    this.mesh = mesh;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
+    geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
+    geometry.computeVertexNormals();
+    this.surface.geometry.dispose();
+    this.surface.geometry = geometry;
+    this.edges.geometry.dispose();
+    this.edges.geometry = new BufferGeometry();
+    this.model.rotation.x = mesh.up === 'z' ? -Math.PI / 2 : 0;
+    this.clearField();
+  }
+
+  /** Nothing to show until `setShades` is called. */
+  clearField(): void {
+    this.model.visible = false;
+    this.critical = null;
+    this.glyphs.clear();
+    this.setLines(new Float32Array(0));
+    this.draw();
+  }
+
+  /** The colour is looked up for every pixel, not mixed between the vertices' colours. */
+  setShades(shades: Float32Array): void {
+    const uv = new Float32Array(2 * shades.length);
+    for (let i = 0; i < shades.length; i++) {
+      // From the middle of the first texel to the middle of the last.
+      uv[2 * i] = (0.5 + 255 * shades[i]!) / 256;
+      uv[2 * i + 1] = 0.5;
+    }
+    this.surface.geometry.setAttribute('uv', new BufferAttribute(uv, 2));
+    this.model.visible = true;
+    this.draw();
+  }
+
+  setColormap(bytes: Uint8Array): void {
+    (this.texture.image.data as Uint8Array).set(bytes);
+    this.texture.needsUpdate = true;
+    this.draw();
+  }
+
+  setLines(segments: Float32Array): void {
+    this.lines.geometry.dispose();
+    this.lines.geometry = new LineSegmentsGeometry();
+    if (segments.length > 0) this.lines.geometry.setPositions(segments);
+    this.lines.userData['empty'] = segments.length === 0;
+    this.applyLayers();
+  }
+
+  setCritical(vertices: Uint32Array, kinds: Int8Array): void {
+    this.critical = { vertices, kinds };
+    this.applyLayers(true);
+  }
+
+  setLayers(layers: Layers): void {
+    this.layers = layers;
+    this.applyLayers();
+  }
+
+  /** Looks from `direction` (of the scene, y up) at the whole mesh, as near as it fits, with its picture in the middle. */
+  frameMesh(direction: readonly [number, number, number]): void {
+    if (!this.mesh) return;
+    const { camera, controls } = this;
+    camera.position.set(...direction).normalize();
+    camera.lookAt(0, 0, 0);
+    camera.updateMatrixWorld();
+    this.model.updateMatrixWorld();
+    const turn = camera.matrixWorldInverse.clone().setPosition(0, 0, 0).multiply(this.model.matrixWorld);
+    const tangentY = Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
+    const tangentX = tangentY * camera.aspect;
+    // A point (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan ≤ a + d·tan; likewise the other edges.
+    const [right, left, top, bottom] = this.reaches(turn, tangentX, tangentY);
+    const distance = Math.max((right + left) / (2 * tangentX), (top + bottom) / (2 * tangentY), 0.1);
+    const shift = new Vector3((right - left) / 2, (top - bottom) / 2, 0).applyQuaternion(camera.quaternion);
+    camera.position.multiplyScalar(MARGIN * distance).add(shift);
+    controls.target.copy(shift);
+    controls.update();
+    this.draw();
+  }
+
+  private reaches(turn: Matrix4, tangentX: number, tangentY: number): [number, number, number, number] {
+    const reach: [number, number, number, number] = [-Infinity, -Infinity, -Infinity, -Infinity];
+    const { positions } = this.mesh!;
+    const point = new Vector3();
+    for (let i = 0; i < positions.length; i += 3) {
+      const { x, y, z } = point.fromArray(positions, i).applyMatrix4(turn);
+      reach[0] = Math.max(reach[0], z * tangentX + x);
+      reach[1] = Math.max(reach[1], z * tangentX - x);
+      reach[2] = Math.max(reach[2], z * tangentY + y);
+      reach[3] = Math.max(reach[3], z * tangentY - y);
+    }
+    return reach;
+  }
+
+  copyCamera(other: Viewer): void {
+    this.camera.position.copy(other.camera.position);
+    this.camera.quaternion.copy(other.camera.quaternion);
+    this.controls.target.copy(other.controls.target);
+    this.draw();
+  }
+
+  private applyLayers(criticalChanged = false): void {
+    const { glyphs, levels, edges } = this.layers;
+    this.lines.visible = levels && !this.lines.userData['empty'];
+    this.edges.visible = edges;
+    // Edges of a large mesh are only built when somebody wants to see them.
+    if (edges && this.mesh && !this.edges.geometry.hasAttribute('position')) {
+      this.edges.geometry = new WireframeGeometry(this.surface.geometry);
+    }
+    this.glyphs.group.visible = glyphs;
+    if (criticalChanged && this.critical && this.mesh) {
+      const { vertices, kinds } = this.critical;
+      const normals = this.surface.geometry.getAttribute('normal').array as Float32Array;
+      this.glyphs.set(vertices, kinds, this.mesh.positions, normals, glyphRadius(this.mesh.area, vertices.length));
+    }
+    this.draw();
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  private draw(): void {
+    if (this.frame) return;
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-KEY_TURN, 0],
+      ArrowRight: [KEY_TURN, 0],
+      ArrowUp: [0, -KEY_TURN],
+      ArrowDown: [0, KEY_TURN],
+    };
+    const offset = new Vector3().subVectors(this.camera.position, this.controls.target);
+    const turn = turns[event.key];
+    if (turn) {
+      offset.applyAxisAngle(new Vector3(0, 1, 0), turn[0]);
+      const side = new Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
+      const tilted = offset.clone().applyAxisAngle(side, turn[1]);
+      // Not over the pole, where the view would flip.
+      if (Math.abs(tilted.y) < 0.99 * tilted.length()) offset.copy(tilted);
+    } else if (event.key === '+' || event.key === '=') offset.divideScalar(KEY_ZOOM);
+    else if (event.key === '-') offset.multiplyScalar(KEY_ZOOM);
+    else return;
+    event.preventDefault();
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+}
+
+/** Joins the cameras of two views. */
+export function link(first: Viewer, second: Viewer): void {
+  first.onMove = () => second.copyCamera(first);
+  second.onMove = () => first.copyCamera(second);
+}

@@ -1,0 +1,116 @@
+/** The page's worker: loads the WebAssembly module once and answers one request after the other. */
+import init, { readField, readMesh, version } from 'morse-smooth';
+import { failureOf, Refusal } from './failure';
+import type { Part, Reply, Request, Settings } from './protocol';
+import { Session } from './session';
+
+/** The few members of a worker's global scope that are used; the DOM's types describe a window instead. */
+interface WorkerScope {
+  postMessage(message: Reply, transfer: Transferable[]): void;
+  onmessage: ((event: MessageEvent<Request>) => void) | null;
+}
+const scope = globalThis as unknown as WorkerScope;
+
+let session: Session | null = null;
+
+/** Typed arrays move to the page instead of being copied; all of them were made for this message. */
+function post(message: Reply): void {
+  const transfer: Transferable[] = [];
+  if (message.kind === 'part') {
+    const holders: object[] = message.part.kind === 'mesh' ? [message.part.mesh] : [message.part];
+    for (const holder of holders) {
+      for (const value of Object.values(holder))
+        if (ArrayBuffer.isView(value)) transfer.push(value.buffer as ArrayBuffer);
+    }
+  }
+  scope.postMessage(message, transfer);
+}
+
+const send = (part: Part): void => post({ kind: 'part', part });
+
+/**
+ * A new mesh takes the old one's place only once one of its fields has been classified. Where that is not the first one, it
+ * opens all the same, and what was wrong with the first is said in the end.
+ */
+async function open({ file, added, settings, smooth }: Extract<Request, { kind: 'open' }>): Promise<void> {
+  const read = readMesh(await bytesOf(file), { fileName: file.name });
+  const opened = new Session(read, file.name, (fraction) => post({ kind: 'progress', fraction }));
+  const troubles: unknown[] = [];
+  try {
+    for (const field of added) opened.addField(field.name, await fieldOf(field));
+    const usable = opened.candidates(settings.field).find((field) => {
+      try {
+        begin(opened, { ...settings, field });
+        return true;
+      } catch (error) {
+        troubles.push(error);
+        return false;
+      }
+    });
+    if (usable !== undefined && smooth) opened.updateAfter({ ...settings, field: usable }, send);
+    if (usable !== undefined && !smooth) opened.leaveOut();
+  } finally {
+    if (session !== opened) opened.free();
+  }
+  if (troubles.length > 0) throw troubles[0];
+}
+
+function begin(opened: Session, settings: Settings): void {
+  opened.updateBefore(settings, send, () => {
+    session?.free();
+    session = opened;
+    opened.describe(send, settings.field);
+  });
+}
+
+async function addField({ file, settings }: Extract<Request, { kind: 'addField' }>): Promise<void> {
+  if (!session) throw new Refusal('NoMesh', 'Open a mesh before adding a field to it.');
+  const key = session.addField(file.name, await fieldOf(file));
+  session.sendFields(send, key);
+  update(session, { ...settings, field: key });
+}
+
+function update(open: Session, settings: Settings): void {
+  open.updateBefore(settings, send);
+  open.updateAfter(settings, send);
+}
+
+async function bytesOf(file: File): Promise<Uint8Array> {
+  return new Uint8Array(await file.arrayBuffer());
+}
+
+async function fieldOf(file: File): Promise<Float64Array> {
+  return readField(await bytesOf(file), /\.csv$/i.test(file.name) ? { format: 'csv' } : {});
+}
+
+async function answer(request: Request): Promise<void> {
+  switch (request.kind) {
+    case 'open':
+      return open(request);
+    case 'addField':
+      return addField(request);
+    case 'update':
+      return session ? update(session, request.settings) : undefined;
+    case 'save':
+      return session?.save(send);
+  }
+}
+
+async function main(): Promise<void> {
+  try {
+    await init();
+  } catch (error) {
+    post({ kind: 'failed', failure: failureOf(error), settings: null });
+    return;
+  }
+  // The page sends the next request only after the answer to the last, so that none of them overlap.
+  scope.onmessage = ({ data }) => {
+    answer(data).then(
+      () => post({ kind: 'done', settings: session?.settings ?? null }),
+      (error: unknown) => post({ kind: 'failed', failure: failureOf(error), settings: session?.settings ?? null }),
+    );
+  };
+  post({ kind: 'started', version });
+}
+
+void main();
