@@ -1,7 +1,6 @@
 //! The integration tests, in one binary. wasm32 runs `tests/bindings.rs` instead.
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
-#![allow(clippy::print_stderr, reason = "a test that cannot run says so")]
 
 mod critical;
 mod data;
