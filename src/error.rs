@@ -300,6 +300,13 @@ stage_error! {
             /// Size that came.
             actual: usize,
         } => "the system has {expected} unknowns, but {actual} were given",
+        /// An entry whose mirror image is not stored.
+        NotSymmetric {
+            /// Its row.
+            row: usize,
+            /// Its column.
+            column: usize,
+        } => "the matrix has an entry at ({row}, {column}), but none at ({column}, {row})",
         /// Another sparsity pattern than the one analysed.
         PatternMismatch {} => "the matrix has another pattern than the one that was analysed",
         /// A matrix entry or right-hand side is NaN or infinite.

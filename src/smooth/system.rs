@@ -15,6 +15,10 @@ use crate::solve::{
 /// that is left is about the square of the relative correction.
 const SMALL_CORRECTION: f64 = 1e-8;
 const MOST_REFINEMENTS: usize = 12;
+
+/// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
+/// refinement can solve; refinement makes up the rest.
+const CG_TOLERANCE: f64 = 1e-6;
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
@@ -106,13 +110,13 @@ impl TikhonovSystem {
             _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
             SolverChoice::ConjugateGradient => {
                 progress(Phase::Solve, 0.1);
-                (self.iterate(&fields, epsilon, scale)?, "cg", 0)
+                (self.iterative(&fields, epsilon, scale)?, "cg", 0)
             }
             SolverChoice::Auto | SolverChoice::Cholesky => {
                 self.factorize(options, epsilon, scale, progress)?;
                 progress(Phase::Solve, 0.9);
                 let nonzeros = self.direct.as_ref().map_or(0, |direct| direct.analysis.size().nonzeros);
-                (self.solve_and_refine(&fields, epsilon, scale)?, "cholesky", nonzeros)
+                (self.direct(&fields, epsilon, scale)?, "cholesky", nonzeros)
             }
         };
         let solutions = solutions
@@ -179,47 +183,16 @@ impl TikhonovSystem {
         outcome
     }
 
-    /// A⁻¹εBf and refinement of all channels, each until its correction is small.
-    fn solve_and_refine(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
+    /// A⁻¹εBf by the factor.
+    fn direct(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
         let Some((_, _, _, factor)) = self.direct.as_ref().and_then(|direct| direct.factor.as_ref()) else {
             return Err(SolveError::PatternMismatch {});
         };
-        let n = self.active.len();
-        let right_hand_sides: Vec<f64> =
-            fields.iter().flat_map(|f| self.mass().times(f).into_iter().map(|x| epsilon * x)).collect();
-        let first = factor.solve(&right_hand_sides)?;
-        let mut iterates: Vec<Iterate> =
-            first.chunks_exact(n).map(|x| Iterate { x: x.to_vec(), ..Iterate::default() }).collect();
-        let mut open: Vec<usize> = (0..fields.len()).collect();
-        let mut previous = vec![f64::INFINITY; fields.len()];
-        for _ in 0..MOST_REFINEMENTS {
-            let residuals: Vec<f64> =
-                open.iter().flat_map(|&c| self.residual(&fields[c], &iterates[c].x, epsilon, scale)).collect();
-            let corrections = factor.solve(&residuals)?;
-            let mut still_open = Vec::new();
-            for (&c, correction) in open.iter().zip(corrections.chunks_exact(n)) {
-                let iterate = &mut iterates[c];
-                let size = norm(correction) / norm(&iterate.x).max(f64::MIN_POSITIVE);
-                iterate.refinement_steps += 1;
-                if !(size.is_finite() && size < 0.5 * previous[c] && size < 0.5) {
-                    return Err(SolveError::NotConverged { iterations: iterate.refinement_steps, residual: size });
-                }
-                previous[c] = size;
-                iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
-                if size > SMALL_CORRECTION {
-                    still_open.push(c);
-                }
-            }
-            open = still_open;
-            if open.is_empty() {
-                return Ok(iterates);
-            }
-        }
-        let residual = open.iter().map(|&c| previous[c]).fold(0.0, f64::max);
-        Err(SolveError::NotConverged { iterations: MOST_REFINEMENTS, residual })
+        self.refine(fields, epsilon, scale, &mut |right_hand_sides, _| factor.solve(right_hand_sides))
     }
 
-    fn iterate(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
+    /// A⁻¹εBf by conjugate gradients with the matrix in factored form.
+    fn iterative(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
         let mut diagonal: Vec<f64> = self
             .laplacian
             .col_iter()
@@ -232,15 +205,62 @@ impl TikhonovSystem {
             let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
             self.mass().times(x).iter().zip(smooth).map(|(b, l)| epsilon * b + l / scale).collect()
         };
-        fields
-            .iter()
-            .map(|f| {
-                let right_hand_side: Vec<f64> = self.mass().times(f).into_iter().map(|x| epsilon * x).collect();
-                let mut x = f.clone();
-                let info = conjugate_gradient(apply, &diagonal, &right_hand_side, &mut x, &CgOptions::default())?;
-                Ok(Iterate { x, iterations: info.iterations, refinement_steps: 0 })
-            })
-            .collect()
+        let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
+        self.refine(fields, epsilon, scale, &mut |right_hand_sides, iterations| {
+            let mut solutions = vec![0.0; right_hand_sides.len()];
+            let n = self.active.len();
+            let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
+            for ((b, x), iterations) in columns.zip(iterations) {
+                *iterations += conjugate_gradient(apply, &diagonal, b, x, &options)?.iterations;
+            }
+            Ok(solutions)
+        })
+    }
+
+    /// Starts from zero and adds A⁻¹ of the residual until what is added is small, every channel for as long as it needs.
+    /// `solve` gets the residuals of the open channels one after the other, and their counts of iterations to add to.
+    fn refine(
+        &self,
+        fields: &[Vec<f64>],
+        epsilon: f64,
+        scale: f64,
+        solve: &mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>,
+    ) -> Result<Vec<Iterate>, SolveError> {
+        let n = self.active.len();
+        let mut iterates: Vec<Iterate> =
+            fields.iter().map(|_| Iterate { x: vec![0.0; n], ..Iterate::default() }).collect();
+        let mut open: Vec<usize> = (0..fields.len()).collect();
+        let mut previous = vec![f64::INFINITY; fields.len()];
+        for step in 0..=MOST_REFINEMENTS {
+            let residuals: Vec<f64> =
+                open.iter().flat_map(|&c| self.residual(&fields[c], &iterates[c].x, epsilon, scale)).collect();
+            let mut iterations = vec![0; open.len()];
+            let corrections = solve(&residuals, &mut iterations)?;
+            let mut still_open = Vec::new();
+            for ((&c, correction), iterations) in open.iter().zip(corrections.chunks_exact(n)).zip(iterations) {
+                let iterate = &mut iterates[c];
+                iterate.iterations += iterations;
+                iterate.refinement_steps = step;
+                let size = norm(correction) / norm(&iterate.x).max(f64::MIN_POSITIVE);
+                iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
+                // The first solution is no correction: what it is corrected by tells how good it was.
+                if step > 0 {
+                    if !(size.is_finite() && size < 0.5 * previous[c] && size < 0.5) {
+                        return Err(SolveError::NotConverged { iterations: step, residual: size });
+                    }
+                    previous[c] = size;
+                }
+                if step == 0 || size > SMALL_CORRECTION {
+                    still_open.push(c);
+                }
+            }
+            open = still_open;
+            if open.is_empty() {
+                return Ok(iterates);
+            }
+        }
+        let residual = open.iter().map(|&c| previous[c]).fold(0.0, f64::max);
+        Err(SolveError::NotConverged { iterations: MOST_REFINEMENTS, residual })
     }
 
     /// εB(f − x) − Lᵀ(Lx): never with the assembled LᵀL, whose rounding the refinement is there to remove.

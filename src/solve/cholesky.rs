@@ -38,10 +38,11 @@ impl CholeskyAnalysis {
     /// Orders the unknowns by [`minimum_degree`] and analyses the pattern of a symmetric matrix, both triangles stored.
     ///
     /// # Errors
-    /// `DimensionMismatch` where the pattern is not square; `OutOfMemory` with the number of bytes where the factor
-    /// would not fit the address space.
+    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`; `OutOfMemory` with the number of bytes where
+    /// the factor would not fit the address space.
     pub fn new(pattern: &SparsityPattern) -> Result<Self, SolveError> {
-        Self::with_permutation(pattern, Permutation::new(minimum_degree(square(pattern)?))?)
+        check_symmetric(pattern)?;
+        Self::analyze(pattern, Permutation::new(minimum_degree(pattern))?)
     }
 
     /// As [`CholeskyAnalysis::new`], with an ordering of the caller's.
@@ -49,10 +50,15 @@ impl CholeskyAnalysis {
     /// # Errors
     /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where the permutation has another size.
     pub fn with_permutation(pattern: &SparsityPattern, permutation: Permutation) -> Result<Self, SolveError> {
-        let n = square(pattern)?.major_dim();
-        if permutation.new_to_old().len() != n {
-            return Err(SolveError::DimensionMismatch { expected: n, actual: permutation.new_to_old().len() });
+        check_symmetric(pattern)?;
+        let (expected, actual) = (pattern.major_dim(), permutation.new_to_old().len());
+        if expected != actual {
+            return Err(SolveError::DimensionMismatch { expected, actual });
         }
+        Self::analyze(pattern, permutation)
+    }
+
+    fn analyze(pattern: &SparsityPattern, permutation: Permutation) -> Result<Self, SolveError> {
         let size = FactorSize::count(pattern, &permutation);
         // Values and row ids of the factor, the ids again by rows, and once more while they are built.
         let bytes = size.nonzeros.saturating_mul(8 + 4 * size_of::<usize>() as u64);
@@ -164,39 +170,43 @@ impl CholeskyFactor {
     }
 }
 
-fn square(pattern: &SparsityPattern) -> Result<&SparsityPattern, SolveError> {
-    if pattern.major_dim() == pattern.minor_dim() {
-        Ok(pattern)
-    } else {
-        Err(SolveError::DimensionMismatch { expected: pattern.major_dim(), actual: pattern.minor_dim() })
+fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {
+    let (expected, actual) = (pattern.major_dim(), pattern.minor_dim());
+    if expected != actual {
+        return Err(SolveError::DimensionMismatch { expected, actual });
     }
+    let one_sided = (0..expected).find_map(|column| {
+        let row = pattern.lane(column).iter().find(|&&row| pattern.lane(row).binary_search(&column).is_err());
+        row.map(|&row| SolveError::NotSymmetric { row, column })
+    });
+    one_sided.map_or(Ok(()), Err)
 }
 
-/// The pattern in the new order, and for every entry its place in the old one.
+/// The pattern in the new order, and for every entry a place in the old one that holds the same value.
 fn permute(pattern: &SparsityPattern, permutation: &Permutation) -> (SparsityPattern, Vec<usize>) {
     let n = pattern.major_dim();
+    let old_to_new = permutation.old_to_new();
     let mut offsets = Vec::with_capacity(n + 1);
-    let mut rows = Vec::with_capacity(pattern.nnz());
-    let mut sources = Vec::with_capacity(pattern.nnz());
-    // The new row above, the place in the old column below: columns are shorter than 2³² entries.
-    let mut column: Vec<u64> = Vec::new();
-    offsets.push(0);
+    let mut end = 0;
+    offsets.push(end);
     for &old in permutation.new_to_old() {
-        let start = pattern.major_offsets()[old as usize];
-        column.clear();
-        column.extend(
-            pattern
-                .lane(old as usize)
-                .iter()
-                .enumerate()
-                .map(|(k, &row)| u64::from(permutation.old_to_new()[row]) << 32 | k as u64),
-        );
-        column.sort_unstable();
-        rows.extend(column.iter().map(|&packed| (packed >> 32) as usize));
-        sources.extend(column.iter().map(|&packed| start + packed as u32 as usize));
-        offsets.push(rows.len());
+        end += pattern.lane(old as usize).len();
+        offsets.push(end);
     }
-    // A permutation keeps rows distinct and in range, so the data is valid by construction.
+    let mut next = offsets.clone();
+    let (mut rows, mut sources) = (vec![0; end], vec![0; end]);
+    // By symmetry an old column is a row as well: reading the columns as rows in the new order fills every new column in
+    // the order of its rows.
+    for (new, &old) in permutation.new_to_old().iter().enumerate() {
+        let start = pattern.major_offsets()[old as usize];
+        for (k, &other) in pattern.lane(old as usize).iter().enumerate() {
+            let place = &mut next[old_to_new[other] as usize];
+            rows[*place] = new;
+            sources[*place] = start + k;
+            *place += 1;
+        }
+    }
+    // Symmetry keeps the lengths of the columns, so the data is valid.
     let permuted = SparsityPattern::try_from_offsets_and_indices(n, n, offsets, rows)
         .unwrap_or_else(|_| SparsityPattern::zeros(n, n));
     (permuted, sources)

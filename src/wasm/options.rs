@@ -61,8 +61,7 @@ pub(super) fn read(value: &JsValue, known: &[&[&str]]) -> Result<Options, Option
         return Ok(Options::default());
     }
     if !value.is_object() || Array::is_array(value) || value.is_function() {
-        let expected = "an object".to_owned();
-        return Err(OptionError::InvalidArgument { argument: "options".to_owned(), expected });
+        return Err(not_an_object());
     }
     for entry in Object::entries(value.unchecked_ref()).iter() {
         let entry: Array = entry.unchecked_into();
@@ -73,19 +72,25 @@ pub(super) fn read(value: &JsValue, known: &[&[&str]]) -> Result<Options, Option
         // One at a time, because the message of the whole object would not say which option is wrong.
         let single = Object::new();
         set(&single, &option, &entry.get(1));
-        if let Err(problem) = serde_wasm_bindgen::from_value::<Options>(single.into()) {
-            return Err(invalid(&option, expected(&problem.to_string())));
+        if serde_wasm_bindgen::from_value::<Options>(single.into()).is_err() {
+            return Err(invalid(&option, expected(&option)));
         }
     }
-    serde_wasm_bindgen::from_value(value.clone()).map_err(|problem| OptionError::InvalidArgument {
-        argument: "options".to_owned(),
-        expected: problem.to_string(),
-    })
+    serde_wasm_bindgen::from_value(value.clone()).map_err(|_| not_an_object())
 }
 
-/// From "unknown variant `a`, expected `b` or `c`" and the like the part that helps.
-fn expected(message: &str) -> &str {
-    message.rsplit_once("expected ").map_or(message, |(_, expected)| expected)
+fn not_an_object() -> OptionError {
+    OptionError::InvalidArgument { argument: "options".to_owned(), expected: "an object".to_owned() }
+}
+
+/// What kind of value an option takes, in the words of JavaScript rather than of serde.
+fn expected(option: &str) -> &'static str {
+    match option {
+        "delta" | "cutoffWavelength" => "a number",
+        "channels" | "count" => "an integer that is not negative",
+        "weld" | "binary" | "bounds" => "true or false",
+        _ => "a name in quotes",
+    }
 }
 
 pub(super) fn invalid(option: &str, expected: &str) -> OptionError {

@@ -303,6 +303,21 @@ fn channels_and_routes_agree() {
 }
 
 #[test]
+fn conjugate_gradients_reach_small_epsilon() {
+    let mesh = shapes::torus(15, 11, 0.3).unwrap();
+    let f = noise(mesh.vertex_count(), 21);
+    for epsilon in [1e-2, 1e-4, 1e-6] {
+        for (metric, scale) in METRICS {
+            let at = options(epsilon, metric, scale);
+            let direct = cholesky(&mesh).tikhonov(&f, &at).unwrap();
+            let mut iterative = smoother(&mesh, LaplacianWeights::Cotangent, SolverChoice::ConjugateGradient);
+            let wrong = error(&iterative.tikhonov(&f, &at).unwrap().values, &direct.values);
+            assert!(wrong < 1e-9, "{metric:?} {scale:?} at {epsilon:e}: {wrong:e}");
+        }
+    }
+}
+
+#[test]
 fn every_component_is_smoothed_as_if_alone() {
     // Isolated vertices keep their value and take no part, however wild it is.
     let mesh = islands();

@@ -312,6 +312,17 @@ fn conjugate_gradients_refuse_by_name() {
 }
 
 #[test]
+fn an_entry_without_a_mirror_image_is_refused() {
+    let mut coo = CooMatrix::new(3, 3);
+    for (row, column) in [(0, 0), (1, 1), (2, 2), (2, 0)] {
+        coo.push(row, column, 1.0);
+    }
+    let matrix = CscMatrix::from(&coo);
+    let refused = CholeskyAnalysis::new(matrix.pattern()).expect_err("not symmetric");
+    assert_eq!(refused, SolveError::NotSymmetric { row: 2, column: 0 });
+}
+
+#[test]
 fn sizes_at_the_ends_of_double_precision() {
     // Squares of these leave the range; the solution does not.
     for size in [1e-300, 1e-170, 1e170, 1e300] {
