@@ -14,6 +14,7 @@ impl<'a> VertexOrder<'a> {
     ///
     /// # Errors
     /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+    #[inline(never)]
     pub fn new(values: &'a [f64], vertices: usize) -> Result<Self, FieldError> {
         if values.len() != vertices {
             return Err(FieldError::LengthMismatch { expected: vertices, actual: values.len() });

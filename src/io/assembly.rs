@@ -46,6 +46,7 @@ impl Assembly {
     }
 
     /// Adds a corner to the face that is being read.
+    #[inline(never)]
     pub(super) fn corner(&mut self, index: i64, vertices: u64) -> Result<(), ParseError> {
         match u32::try_from(index) {
             Ok(corner) if u64::from(corner) < vertices => {
@@ -57,6 +58,7 @@ impl Assembly {
     }
 
     /// Ends a polygon: a fan around its first corner.
+    #[inline(never)]
     pub(super) fn close_polygon(&mut self) {
         match self.corners.as_slice() {
             [] | [_] | [_, _] => self.short.add(self.faces),
@@ -87,6 +89,7 @@ impl Assembly {
     }
 
     /// Adds a field; a name that was there before gets a number.
+    #[inline(never)]
     pub(super) fn field(&mut self, name: &str, values: Vec<f64>) {
         let unique = self.names.unique(name);
         if unique != name {
@@ -96,16 +99,19 @@ impl Assembly {
     }
 
     /// Says that something was left out.
+    #[inline(never)]
     pub(super) fn skipped(&mut self, what: impl Into<String>, count: u64) {
         let what = what.into();
         self.warn("SkippedData", format!("{what} left out"), usize::try_from(count).unwrap_or(usize::MAX));
     }
 
+    #[inline(never)]
     fn warn(&mut self, code: &'static str, message: String, count: usize) {
         self.warnings.push(Diagnostic { code, message, count, examples: Vec::new() });
     }
 
     /// The mesh, once everything was read.
+    #[inline(never)]
     pub(super) fn finish(mut self, format: MeshFormat) -> Result<MeshData, ParseError> {
         let vertices = (self.positions.len() / 3) as u64;
         let triangles = (self.triangles.len() / 3) as u64;

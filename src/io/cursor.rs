@@ -54,6 +54,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes over bytes.
+    #[inline(never)]
     pub(super) fn skip(&mut self, count: u64) -> Result<(), ParseError> {
         require(count, self.available())?;
         // No more than a slice's length, so it fits.
@@ -62,6 +63,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next number; integers of 64 bits are rounded to double precision.
+    #[inline(never)]
     pub(super) fn number(&mut self, kind: NumberType) -> Result<f64, ParseError> {
         Ok(match kind {
             NumberType::F32 => f64::from(f32::from_le_bytes(self.take()?)),
@@ -72,6 +74,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next number as an integer. What is none (a fraction, NaN, more than 63 bits) becomes an id that cannot exist.
+    #[inline(never)]
     pub(super) fn integer(&mut self, kind: NumberType) -> Result<i64, ParseError> {
         Ok(match kind {
             NumberType::I8 => i64::from(i8::from_le_bytes(self.take()?)),

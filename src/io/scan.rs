@@ -1,4 +1,6 @@
 //! Reads bytes as text: rows, words and numbers, whatever the line ends (LF, CRLF, CR), without copying.
+//!
+//! Functions with many callers are kept from being inlined: in WebAssembly the copies were a tenth of the download.
 
 use lexical_parse_float::FromLexical;
 
@@ -68,6 +70,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Goes to the next line that holds a word; false at the end of the text.
+    #[inline(never)]
     pub(super) fn next_row(&mut self) -> bool {
         loop {
             self.skip_blanks();
@@ -80,6 +83,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next word on this line.
+    #[inline(never)]
     pub(super) fn word_in_row(&mut self) -> Option<&'a [u8]> {
         self.skip_blanks();
         let rest = self.rest();
@@ -95,16 +99,19 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next word on this or a later line.
+    #[inline(never)]
     pub(super) fn word(&mut self) -> Option<&'a [u8]> {
         if self.next_row() { self.word_in_row() } else { None }
     }
 
     /// The next word, without moving on to it.
+    #[inline(never)]
     pub(super) fn peek_word(&self) -> Option<&'a [u8]> {
         self.clone().word()
     }
 
     /// What is left of this line, without the line end, and goes to the next line.
+    #[inline(never)]
     pub(super) fn rest_of_line(&mut self) -> &'a [u8] {
         let start = self.position;
         loop {
@@ -136,24 +143,28 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next word of this or a later line as a number.
+    #[inline(never)]
     pub(super) fn number(&mut self, what: &str) -> Result<f64, ParseError> {
         let word = self.word().ok_or_else(|| self.unexpected_end(what))?;
         parse_number(word).ok_or_else(|| self.invalid_number(word))
     }
 
     /// The next word of this or a later line as an integer.
+    #[inline(never)]
     pub(super) fn integer(&mut self, what: &str) -> Result<i64, ParseError> {
         let word = self.word().ok_or_else(|| self.unexpected_end(what))?;
         parse_integer(word).ok_or_else(|| self.invalid_number(word))
     }
 
     /// The next word of this line as a number of things.
+    #[inline(never)]
     pub(super) fn count_in_row(&mut self, what: &str) -> Result<u64, ParseError> {
         let word = self.word_in_row().ok_or_else(|| self.syntax(format!("{what} is missing")))?;
         parse_count(word).ok_or_else(|| self.invalid_number(word))
     }
 
     /// The next word of this line as a name.
+    #[inline(never)]
     pub(super) fn name_in_row(&mut self, what: &str) -> Result<&'a [u8], ParseError> {
         self.word_in_row().ok_or_else(|| self.syntax(format!("{what} is missing")))
     }
@@ -163,14 +174,20 @@ impl<'a> Scanner<'a> {
         require(numbers.saturating_mul(2).saturating_sub(1), self.rest().len())
     }
 
+    #[cold]
+    #[inline(never)]
     pub(super) fn invalid_number(&self, word: &[u8]) -> ParseError {
         ParseError::InvalidNumber { line: self.line, text: excerpt(word) }
     }
 
+    #[cold]
+    #[inline(never)]
     pub(super) fn syntax(&self, problem: impl Into<String>) -> ParseError {
         ParseError::InvalidSyntax { line: self.line, problem: problem.into() }
     }
 
+    #[cold]
+    #[inline(never)]
     pub(super) fn unexpected_end(&self, expected: &str) -> ParseError {
         ParseError::UnexpectedEnd { line: self.line, expected: expected.to_owned() }
     }
@@ -225,6 +242,7 @@ pub(super) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
 }
 
 /// A number in double precision; `nan` and `inf` as they are.
+#[inline(never)]
 pub(super) fn parse_number(word: &[u8]) -> Option<f64> {
     f64::from_lexical(word).ok().or_else(|| {
         // C libraries may write the kind of NaN with it: `nan(ind)`, `-nan(0x1)`.
@@ -235,16 +253,20 @@ pub(super) fn parse_number(word: &[u8]) -> Option<f64> {
 }
 
 /// A signed integer.
+#[inline(never)]
 pub(super) fn parse_integer(word: &[u8]) -> Option<i64> {
     core::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// A number of things.
+#[inline(never)]
 pub(super) fn parse_count(word: &[u8]) -> Option<u64> {
     core::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// The beginning of a piece of input, for messages.
+#[cold]
+#[inline(never)]
 pub(super) fn excerpt(piece: &[u8]) -> String {
     let mut text = String::from_utf8_lossy(&piece[..piece.len().min(EXCERPT)]).into_owned();
     if piece.len() > EXCERPT {
@@ -254,6 +276,7 @@ pub(super) fn excerpt(piece: &[u8]) -> String {
 }
 
 /// Fails unless `expected` bytes are there: called before memory is set aside for what a header promises.
+#[inline(never)]
 pub(super) fn require(expected: u64, available: usize) -> Result<(), ParseError> {
     if expected > available as u64 {
         return Err(ParseError::Truncated { expected, available: available as u64 });

@@ -22,6 +22,9 @@ const CG_TOLERANCE: f64 = 1e-6;
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
+/// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
+type SolveColumns<'a> = &'a mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>;
+
 /// Everything about a Tikhonov system that outlives one ε.
 #[derive(Debug)]
 pub(super) struct TikhonovSystem {
@@ -224,7 +227,7 @@ impl TikhonovSystem {
         fields: &[Vec<f64>],
         epsilon: f64,
         scale: f64,
-        solve: &mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>,
+        solve: SolveColumns<'_>,
     ) -> Result<Vec<Iterate>, SolveError> {
         let n = self.active.len();
         let mut iterates: Vec<Iterate> =
@@ -264,6 +267,7 @@ impl TikhonovSystem {
     }
 
     /// εB(f − x) − Lᵀ(Lx): never with the assembled LᵀL, whose rounding the refinement is there to remove.
+    #[inline(never)]
     fn residual(&self, f: &[f64], x: &[f64], epsilon: f64, scale: f64) -> Vec<f64> {
         let difference: Vec<f64> = f.iter().zip(x).map(|(f, x)| f - x).collect();
         let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
@@ -303,6 +307,7 @@ struct Iterate {
 }
 
 impl Mass {
+    #[inline(never)]
     fn times(&self, x: &[f64]) -> Vec<f64> {
         match self {
             Self::Identity => x.to_vec(),

@@ -1,4 +1,4 @@
-//! Products and parts of compressed sparse columns.
+//! Products and parts of compressed sparse columns. Not inlined, because the copies would only grow the wasm module.
 
 use nalgebra_sparse::CscMatrix;
 
@@ -7,6 +7,7 @@ use nalgebra_sparse::CscMatrix;
 /// # Panics
 /// Where `x` has not one entry per column.
 #[must_use]
+#[inline(never)]
 pub fn product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     assert_eq!(x.len(), matrix.ncols(), "one entry per column");
     let mut y = vec![0.0; matrix.nrows()];
@@ -23,6 +24,7 @@ pub fn product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
 /// # Panics
 /// Where `x` has not one entry per row.
 #[must_use]
+#[inline(never)]
 pub fn transposed_product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     assert_eq!(x.len(), matrix.nrows(), "one entry per row");
     matrix
@@ -110,6 +112,7 @@ impl Rows {
 
 /// ‖x‖₂, also where the squares leave the range of double precision.
 #[must_use]
+#[inline(never)]
 pub fn norm(x: &[f64]) -> f64 {
     let square: f64 = x.iter().map(|v| v * v).sum();
     // Below this, squares lost digits to underflow.
@@ -128,6 +131,7 @@ pub fn norm(x: &[f64]) -> f64 {
 /// # Panics
 /// Where an id in `kept` is not below the size of the matrix.
 #[must_use]
+#[inline(never)]
 pub fn submatrix(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
     let mut place = vec![usize::MAX; matrix.nrows()];
     for (new, &old) in kept.iter().enumerate() {
