@@ -20,3 +20,8 @@ pub mod wasm;
 pub use error::{Diagnostic, Error, Result};
 pub use mesh::TriMesh;
 pub use smooth::{Smoother, SmootherOptions};
+
+// The README's Rust runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;

@@ -8,7 +8,7 @@ use core::f64::consts::TAU;
 use super::TriMesh;
 use crate::error::MeshError;
 
-/// A small reproducible generator of uniform numbers (SplitMix64, Steele et al. 2014).
+/// A small reproducible generator of uniform numbers (SplitMix64, \[Steele14\]).
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 
@@ -141,7 +141,7 @@ pub fn moebius(around: u32, across: u32) -> Result<TriMesh, MeshError> {
     TriMesh::new(positions, cells(around, across.saturating_sub(1), at, around >= 3))
 }
 
-/// A Klein bottle with `around` × `across` vertices (the figure-8 immersion, Franzoni 2012): closed, one-sided, χ = 0.
+/// A Klein bottle with `around` × `across` vertices (the figure-8 immersion, \[Franzoni12\]): closed, one-sided, χ = 0.
 ///
 /// # Errors
 /// `EmptyMesh` where a count is too small.

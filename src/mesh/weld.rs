@@ -87,7 +87,7 @@ pub fn weld(positions: &[f64], triangles: &[u32]) -> Result<Welded, MeshError> {
     Ok(Welded { positions: kept, triangles, new_ids })
 }
 
-/// Mixes the bits of three coordinates (the finisher of `MurmurHash3`, once for each).
+/// Mixes the bits of three coordinates (the finisher of `MurmurHash3` \[Appleby11\], once for each).
 fn hash(position: [f64; 3]) -> u64 {
     position.iter().fold(0, |hash: u64, x| {
         let mut mixed = hash.rotate_left(23) ^ x.to_bits();

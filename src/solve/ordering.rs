@@ -102,7 +102,7 @@ struct QuotientGraph {
 impl QuotientGraph {
     fn new(pattern: &SparsityPattern) -> Self {
         let n = pattern.major_dim();
-        // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy96]).
+        // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
         let dense = (10.0 * (n as f64).sqrt()).max(16.0) as usize;
         let is_dense: Vec<bool> = (0..n).map(|v| pattern.lane(v).len() > dense).collect();
         let mut variables = Vec::with_capacity(n);

@@ -1,4 +1,4 @@
-//! Dense linear algebra with about 32 digits (pairs of doubles, Dekker 1971; Knuth's TwoSum): a reference whose rounding does
+//! Dense linear algebra with about 32 digits (pairs of doubles, [Dekker71]; Knuth's TwoSum): a reference whose rounding does
 //! not matter where double precision loses everything.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -13,6 +13,7 @@ mod layering;
 mod level_sets;
 mod mesh;
 mod operators;
+mod readme;
 mod smooth;
 mod solve;
 mod support;
