@@ -35,10 +35,9 @@ export async function findBrowser() {
 }
 
 function installedBrowser() {
-  if (process.env.CHROME_PATH) return [process.env.CHROME_PATH].find(works) ?? null;
   const folders = environment.PATH.split(delimiter);
   const named = NAMES.flatMap((name) => folders.map((folder) => join(folder, executable(name))));
-  return [...named, ...PLACES].find(works) ?? null;
+  return [process.env.CHROME_PATH ?? '', ...named, ...PLACES].find(works) ?? null;
 }
 
 async function debianPackage() {
