@@ -22,7 +22,7 @@ const sections = [
   },
   {
     name: 'Bindings, in Node',
-    run: async () => rustResults(await runWasmPack(['test', '--node', '--', '--features', 'wasm'], { show: true })),
+    run: async () => rustResults(await runWasmPack(['test', '--node', '--', '--features', 'wasm', '--test', 'bindings'], { show: true })),
   },
   {
     name: BUILD,
