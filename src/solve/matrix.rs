@@ -2,6 +2,15 @@
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::error::SolveError;
+
+/// What a 32-bit address space can give to one matrix or factor beside everything else.
+pub(super) const ADDRESS_SPACE: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
+
+/// An entry of AᵀA and what becomes of it until it is factorised: value and row id, both once more in the new order, the place
+/// in the old one, the ordering's graph, and the pattern while it grows.
+const BYTES_PER_GRAM_ENTRY: u64 = 2 * 8 + 6 * size_of::<usize>() as u64;
+
 /// A x.
 ///
 /// # Panics
@@ -41,9 +50,22 @@ pub fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
 }
 
 /// AᵀA, with an entry wherever two columns of A share a row, even where it cancels.
-#[must_use]
-pub fn gram(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
-    &matrix.transpose() * matrix
+///
+/// # Errors
+/// `OutOfMemory` where rows of A are so full that AᵀA would not fit the address space: one vertex with 20,000 neighbours makes
+/// 400 million entries.
+pub fn gram(matrix: &CscMatrix<f64>) -> Result<CscMatrix<f64>, SolveError> {
+    let mut lengths = vec![0_u64; matrix.nrows()];
+    for &row in matrix.row_indices() {
+        lengths[row] += 1;
+    }
+    // Every row makes a pair of each two of its columns; where rows overlap, this counts some entries several times.
+    let entries = lengths.iter().map(|length| length * length).sum::<u64>();
+    let bytes = entries.saturating_mul(BYTES_PER_GRAM_ENTRY);
+    if bytes > ADDRESS_SPACE {
+        return Err(SolveError::OutOfMemory { bytes });
+    }
+    Ok(&matrix.transpose() * matrix)
 }
 
 /// ‖x‖₂, also where the squares leave the range of double precision.
