@@ -8,13 +8,16 @@ use crate::error::SolveError;
 pub struct CgOptions {
     /// ‖b − A x‖₂ ≤ tolerance · ‖b‖₂. Default 1e-11.
     pub tolerance: f64,
+    /// Taken instead of the tolerance where the rounding of A x, which may be much larger than b, lets the residual fall no
+    /// further. Default 1e-8.
+    pub acceptable: f64,
     /// Most products with A. Default 20,000.
     pub max_iterations: usize,
 }
 
 impl Default for CgOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-11, max_iterations: 20_000 }
+        Self { tolerance: 1e-11, acceptable: 1e-8, max_iterations: 20_000 }
     }
 }
 
@@ -73,7 +76,11 @@ pub fn conjugate_gradient(
         if reached <= target {
             return Ok(CgInfo { iterations, relative_residual: reached / size });
         }
-        if iterations >= options.max_iterations || reached > 0.5 * start {
+        let stagnates = reached > 0.5 * start;
+        if stagnates && reached <= options.acceptable * size {
+            return Ok(CgInfo { iterations, relative_residual: reached / size });
+        }
+        if stagnates || iterations >= options.max_iterations {
             return Err(SolveError::NotConverged { iterations, residual: reached / size });
         }
     }
