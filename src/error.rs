@@ -287,6 +287,11 @@ stage_error! {
             /// Its place in the list.
             index: usize,
         } => "level {index} is not finite",
+        /// The memory that the result needs cannot be had.
+        OutOfMemory {
+            /// Bytes needed.
+            bytes: u64,
+        } => "{bytes} bytes of memory are needed, more than can be had here",
     }
 }
 

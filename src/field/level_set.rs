@@ -1,5 +1,7 @@
 //! Level sets of the piecewise linear field as polylines.
 
+use core::ops::Range;
+
 use super::order::{VertexOrder, value_range};
 use crate::error::{Error, FieldError, OptionError};
 use crate::mesh::TriMesh;
@@ -55,7 +57,8 @@ pub fn evenly_spaced_levels(mesh: &TriMesh, values: &[f64], count: usize) -> Res
 /// Points in the units of the positions, levels in those of the values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels.
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels;
+/// `OutOfMemory` where the levels have more points than fit, as many levels of noise do.
 pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<LevelSets, Error> {
     VertexOrder::new(values, mesh.vertex_count())?;
     if let Some(index) = levels.iter().position(|level| !level.is_finite()) {
@@ -65,17 +68,81 @@ pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Leve
         let expected = format!("at most {MOST_LEVELS} levels");
         return Err(OptionError::InvalidOption { option: "levels".to_owned(), expected }.into());
     }
-    let crossings = Crossings::new(mesh, values, levels);
-    let mut walk = Walk {
-        mesh,
-        values,
-        visited: vec![false; mesh.triangle_count()],
-        sets: LevelSets { offsets: vec![0], ..LevelSets::default() },
-    };
+    let (sorted, order) = sort(levels);
+    let extent = Extent::count(mesh, values, &sorted);
+    let sets = extent.empty_sets()?;
+    let triangles = extent.room(extent.crossings)?;
+    let crossings = Crossings::new(mesh, values, &sorted, &order, triangles);
+    let mut walk = Walk { mesh, values, visited: vec![false; mesh.triangle_count()], sets };
     for (place, &level) in levels.iter().enumerate() {
         walk.trace(level, crossings.triangles(place));
     }
     Ok(walk.sets)
+}
+
+/// How much the levels cut, known before anything is allocated for it: many levels of a noisy field can have more points than
+/// there is memory.
+struct Extent {
+    points: u64,
+    /// At most so many.
+    lines: u64,
+    /// Pairs of a triangle and a level that cuts it.
+    crossings: u64,
+}
+
+impl Extent {
+    fn count(mesh: &TriMesh, values: &[f64], sorted: &[f64]) -> Self {
+        let connectivity = mesh.connectivity();
+        let (mut points, mut ends, mut sides) = (0, 0, 0);
+        for (edge, ends_of_edge) in connectivity.edges().iter().enumerate() {
+            let levels = cut(sorted, &ends_of_edge.map(|v| values[v as usize])).len() as u64;
+            let triangles = connectivity.triangles_of_edge(edge as u32).len() as u64;
+            sides += levels * triangles;
+            // Between two triangles a line goes on; otherwise one ends in each.
+            let ending = if triangles == 2 { 0 } else { levels * triangles };
+            ends += ending;
+            points += if triangles == 2 { levels } else { ending };
+        }
+        let crossings = sides / 2;
+        // A closed line passes three triangles at least.
+        Self { points, lines: ends / 2 + crossings / 3, crossings }
+    }
+
+    fn empty_sets(&self) -> Result<LevelSets, FieldError> {
+        // Offsets are u32.
+        if self.points > u64::from(u32::MAX) {
+            return Err(self.out_of_memory());
+        }
+        let mut sets = LevelSets {
+            points: self.room(3 * self.points)?,
+            offsets: self.room(self.lines + 1)?,
+            levels: self.room(self.lines)?,
+            closed: self.room(self.lines)?,
+            edges: self.room(self.points)?,
+            parameters: self.room(self.points)?,
+        };
+        sets.offsets.push(0);
+        Ok(sets)
+    }
+
+    fn room<T>(&self, length: u64) -> Result<Vec<T>, FieldError> {
+        let mut room = Vec::new();
+        let reserved = usize::try_from(length).is_ok_and(|length| room.try_reserve_exact(length).is_ok());
+        if reserved { Ok(room) } else { Err(self.out_of_memory()) }
+    }
+
+    fn out_of_memory(&self) -> FieldError {
+        // Three coordinates, two ends and a parameter; an offset, a level and a flag; a triangle.
+        FieldError::OutOfMemory { bytes: 40 * self.points + 13 * self.lines + 4 * self.crossings }
+    }
+}
+
+/// The ranks of the sorted levels that cut a simplex with the given values: min < level ≤ max, so that one corner is below and
+/// one is not.
+fn cut(sorted: &[f64], values: &[f64]) -> Range<usize> {
+    let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    sorted.partition_point(|&level| level <= min)..sorted.partition_point(|&level| level <= max)
 }
 
 /// The triangles that each level cuts, in compressed rows.
@@ -85,26 +152,21 @@ struct Crossings {
 }
 
 impl Crossings {
-    /// Every triangle finds its levels by bisection, so that many levels cost no more than their points.
-    fn new(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Self {
-        let (sorted, order) = sort(levels);
-        let cut = |corners: &[u32; 3]| {
-            let [x, y, z] = corners.map(|v| values[v as usize]);
-            // Cut by min < level ≤ max: one corner is below and one is not.
-            let (min, max) = (x.min(y).min(z), x.max(y).max(z));
-            sorted.partition_point(|&level| level <= min)..sorted.partition_point(|&level| level <= max)
-        };
-        let mut offsets = vec![0_usize; levels.len() + 1];
+    /// Every triangle finds its levels by bisection, so that many levels cost no more than their points. `order` is the place of
+    /// each sorted level, `triangles` is room for all.
+    fn new(mesh: &TriMesh, values: &[f64], sorted: &[f64], order: &[usize], mut triangles: Vec<u32>) -> Self {
+        let cut = |corners: &[u32; 3]| cut(sorted, &corners.map(|v| values[v as usize]));
+        let mut offsets = vec![0_usize; sorted.len() + 1];
         for corners in mesh.connectivity().triangles() {
             for rank in cut(corners) {
                 offsets[order[rank] + 1] += 1;
             }
         }
-        for place in 0..levels.len() {
+        for place in 0..sorted.len() {
             offsets[place + 1] += offsets[place];
         }
         let mut next = offsets.clone();
-        let mut triangles = vec![0_u32; offsets[levels.len()]];
+        triangles.resize(offsets[sorted.len()], 0);
         for (t, corners) in mesh.connectivity().triangles().iter().enumerate() {
             for rank in cut(corners) {
                 triangles[next[order[rank]]] = t as u32;

@@ -7,11 +7,14 @@ const LARGEST_ID = 2 ** 32 - 1;
 /** The name of a typed array's class, also for arrays of another realm (a frame, a vm context). */
 const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : undefined);
 
-/** Values as the wasm module takes them. A Float64Array passes through: the call copies it into wasm memory anyway. */
+/**
+ * Values as the wasm module takes them. A Float64Array passes through: the call copies it into wasm memory anyway. One of another
+ * realm does not, as the module tells arrays by their class.
+ */
 export function toNumbers(value, argument) {
+  if (value instanceof Float64Array) return value;
   const name = typedArrayName(value);
-  if (name === 'Float64Array') return value;
-  if (name === 'Float32Array') return Float64Array.from(value);
+  if (name === 'Float64Array' || name === 'Float32Array') return new Float64Array(value);
   if (!Array.isArray(value)) throw invalidArgument(argument, NUMBERS);
   const numbers = new Float64Array(value.length);
   for (let index = 0; index < value.length; index++) {
@@ -51,23 +54,33 @@ export function toBytes(value) {
   throw invalidArgument('bytes', 'a Uint8Array');
 }
 
-/** An options object or nothing. Its keys and values are checked by the wasm module. */
+/**
+ * An options object or nothing. Its keys and values are checked by the wasm module, on a copy: a getter that throws, or that calls
+ * back into this package, must not do so from within the module, which would keep the objects of that call borrowed for ever.
+ */
 export function toOptions(value) {
-  if (value === undefined || isRecord(value)) return value;
-  throw invalidArgument('options', 'an object');
+  if (value === undefined) return undefined;
+  if (isRecord(value)) return { ...value };
+  throw invalidArgument('options', 'a plain object');
 }
 
 /** Fields to be written: every one as numbers, under its name. */
 export function toFields(value) {
-  if (!isRecord(value)) throw invalidArgument('fields', 'an object of arrays by name');
+  if (!isRecord(value)) throw invalidArgument('fields', 'a plain object of arrays by name');
   return Object.fromEntries(Object.entries(value).map(([name, field]) => [name, toNumbers(field, `fields.${name}`)]));
 }
 
 /** Levels by value, or `{ count }`. */
 export function toLevels(value) {
-  return isRecord(value) ? value : toNumbers(value, 'levels');
+  return isRecord(value) ? { ...value } : toNumbers(value, 'levels');
 }
 
+/**
+ * A plain object, also of another realm. The entries of a Map, or what a class inherits, would be passed over in silence: such
+ * values are refused instead.
+ */
 function isRecord(value) {
-  return typeof value === 'object' && value !== null && !Array.isArray(value) && !ArrayBuffer.isView(value);
+  if (typeof value !== 'object' || value === null) return false;
+  const prototype = Object.getPrototypeOf(value);
+  return prototype === null || Object.getPrototypeOf(prototype) === null;
 }

@@ -22,7 +22,7 @@ export function readField(bytes, options) {
 export function writeMesh(mesh, options) {
   const module = core();
   const source = handleOf(mesh);
-  const settings = { ...toOptions(options) };
-  if (settings.fields !== undefined) settings.fields = toFields(settings.fields);
+  const settings = toOptions(options);
+  if (settings?.fields !== undefined) settings.fields = toFields(settings.fields);
   return source.use((rawMesh) => module.writeMesh(rawMesh, settings));
 }

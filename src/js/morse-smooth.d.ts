@@ -197,7 +197,7 @@ export class TriMesh {
    * The lines on which the field has the given values, or `count` values that cut its range into
    * equal parts (none where the field is constant). At most 10,000.
    *
-   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`
+   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `OutOfMemory` (`bytes`) for more points than fit
    */
   levelSets(values: Numbers, levels: Numbers | { count: number }): LevelSets;
 
@@ -360,7 +360,7 @@ export class Smoother {
    *
    * @param options `channels`: how many numbers each vertex has, side by side. Default 1
    * @throws `InvalidOption` for ε ≤ 0; `LengthMismatch`, `NonFiniteValue`; `NotPositiveDefinite` or `NotConverged` where ε is too
-   *   small for the mesh
+   *   small for the mesh; `OutOfMemory` (`bytes`) where it is too large to factorise
    */
   tikhonov(values: Numbers, options: TikhonovOptions & { channels?: number }): Smoothed;
 

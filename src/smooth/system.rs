@@ -164,7 +164,7 @@ impl TikhonovSystem {
             Some(direct) => direct,
             None => {
                 progress(Phase::Analysis, 0.0);
-                let gram = gram(&self.laplacian);
+                let gram = gram(&self.laplacian)?;
                 let analysis = CholeskyAnalysis::new(gram.pattern())?;
                 Direct { gram, analysis, factor: None }
             }

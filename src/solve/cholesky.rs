@@ -9,13 +9,10 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::factorization::{CscCholesky, CscSymbolicCholesky};
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::matrix::{norm, product};
+use super::matrix::{ADDRESS_SPACE, norm, product};
 use super::ordering::{Permutation, minimum_degree};
 use super::symbolic::FactorSize;
 use crate::error::SolveError;
-
-/// What a 32-bit address space can give to one factor beside everything else.
-const LARGEST_FACTOR: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
 #[derive(Debug, Clone)]
@@ -62,7 +59,7 @@ impl CholeskyAnalysis {
         let size = FactorSize::count(pattern, &permutation);
         // Values and row ids of the factor, the ids again by rows, and once more while they are built.
         let bytes = size.nonzeros.saturating_mul(8 + 4 * size_of::<usize>() as u64);
-        if bytes > LARGEST_FACTOR {
+        if bytes > ADDRESS_SPACE {
             return Err(SolveError::OutOfMemory { bytes });
         }
         let (permuted, sources) = permute(pattern, &permutation);

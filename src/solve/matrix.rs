@@ -2,6 +2,15 @@
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::error::SolveError;
+
+/// What a 32-bit address space can give to one matrix or factor beside everything else.
+pub(super) const ADDRESS_SPACE: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
+
+/// An entry of AᵀA and what becomes of it until it is factorised: value and row id, both once more in the new order, the place
+/// in the old one, the ordering's graph, and the pattern while it grows.
+const BYTES_PER_GRAM_ENTRY: u64 = 2 * 8 + 6 * size_of::<usize>() as u64;
+
 /// A x.
 ///
 /// # Panics
@@ -43,10 +52,14 @@ pub fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
 }
 
 /// AᵀA, with an entry wherever two columns of A share a row, even where it cancels.
-#[must_use]
-pub fn gram(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
+///
+/// # Errors
+/// `OutOfMemory` where rows of A are so full that AᵀA would not fit the address space: one vertex with 20,000 neighbours
+/// makes 400 million entries.
+pub fn gram(matrix: &CscMatrix<f64>) -> Result<CscMatrix<f64>, SolveError> {
     let columns = matrix.ncols();
     let by_rows = Rows::new(matrix);
+    check_gram(matrix, &by_rows)?;
     // Column j of the product gathers the columns that share a row with column j, in the order they are met …
     let mut ends = Vec::with_capacity(columns + 1);
     let (mut met, mut sums) = (Vec::new(), Vec::new());
@@ -69,8 +82,30 @@ pub fn gram(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
     // … and, because the product is symmetric, reading the columns as rows sorts them.
     let unsorted = (0..columns).flat_map(|j| (ends[j]..ends[j + 1]).map(move |k| (j, k)));
     let sorted = Rows::gather(columns, unsorted.map(|(j, k)| (met[k], j, sums[k])));
-    CscMatrix::try_from_csc_data(columns, columns, sorted.offsets, sorted.columns, sorted.values)
-        .unwrap_or_else(|_| CscMatrix::zeros(columns, columns))
+    Ok(CscMatrix::try_from_csc_data(columns, columns, sorted.offsets, sorted.columns, sorted.values)
+        .unwrap_or_else(|_| CscMatrix::zeros(columns, columns)))
+}
+
+/// Fails where AᵀA would not fit the address space, before it is begun.
+fn check_gram(matrix: &CscMatrix<f64>, by_rows: &Rows) -> Result<(), SolveError> {
+    // Every row makes a pair of each two of its columns; where rows overlap, this counts some entries several times.
+    let pairs: u64 = by_rows.offsets.windows(2).map(|row| (row[1] - row[0]) as u64).map(|length| length * length).sum();
+    let most = ADDRESS_SPACE / BYTES_PER_GRAM_ENTRY;
+    if pairs <= most {
+        return Ok(());
+    }
+    let mut owner = vec![usize::MAX; matrix.ncols()];
+    let mut entries = 0_u64;
+    for (j, column) in matrix.col_iter().enumerate() {
+        for (&i, _) in column.row_indices().iter().flat_map(|&row| by_rows.row(row)) {
+            entries += u64::from(core::mem::replace(&mut owner[i], j) != j);
+        }
+        if entries > most {
+            // The rest is not counted: this much is too much already.
+            return Err(SolveError::OutOfMemory { bytes: entries * BYTES_PER_GRAM_ENTRY });
+        }
+    }
+    Ok(())
 }
 
 /// Compressed rows.

@@ -1,6 +1,6 @@
 //! Typed arrays and plain objects. Arrays are copied both ways: a view of wasm memory dies when the memory grows.
 
-use js_sys::{Float64Array, Object, Uint32Array};
+use js_sys::{Float64Array, Object, Uint8Array, Uint32Array};
 use nalgebra_sparse::CscMatrix;
 use serde::Serialize;
 use wasm_bindgen::JsValue;
@@ -8,36 +8,30 @@ use wasm_bindgen::JsValue;
 use super::error::set;
 use crate::error::{Diagnostic, SolveError};
 
-/// A copy of a typed array; out of memory is an error, not a trap.
 pub(super) fn floats(array: &Float64Array) -> Result<Vec<f64>, SolveError> {
-    let mut copy = reserve(array.length() as usize)?;
-    copy.resize(array.length() as usize, 0.0);
-    array.copy_to(&mut copy);
-    Ok(copy)
+    copied(array.length(), |copy| array.copy_to(copy))
+}
+
+pub(super) fn ids(array: &Uint32Array) -> Result<Vec<u32>, SolveError> {
+    copied(array.length(), |copy| array.copy_to(copy))
+}
+
+pub(super) fn bytes(array: &Uint8Array) -> Result<Vec<u8>, SolveError> {
+    copied(array.length(), |copy| array.copy_to(copy))
 }
 
 /// A copy of a typed array; out of memory is an error, not a trap.
-pub(super) fn ids(array: &Uint32Array) -> Result<Vec<u32>, SolveError> {
-    let mut copy = reserve(array.length() as usize)?;
-    copy.resize(array.length() as usize, 0);
-    array.copy_to(&mut copy);
-    Ok(copy)
-}
-
-/// A copy of bytes; out of memory is an error, not a trap.
-pub(super) fn bytes(array: &js_sys::Uint8Array) -> Result<Vec<u8>, SolveError> {
-    let mut copy = reserve(array.length() as usize)?;
-    copy.resize(array.length() as usize, 0);
-    array.copy_to(&mut copy);
-    Ok(copy)
-}
-
-fn reserve<T>(length: usize) -> Result<Vec<T>, SolveError> {
-    let mut room = Vec::new();
-    match room.try_reserve_exact(length) {
-        Ok(()) => Ok(room),
-        Err(_) => Err(SolveError::OutOfMemory { bytes: (length * size_of::<T>()) as u64 }),
+fn copied<T: Clone + Default>(length: u32, copy_to: impl FnOnce(&mut [T])) -> Result<Vec<T>, SolveError> {
+    let mut copy = Vec::new();
+    if copy.try_reserve_exact(length as usize).is_err() {
+        return Err(SolveError::OutOfMemory { bytes: u64::from(length) * size_of::<T>() as u64 });
     }
+    copy.resize(length as usize, T::default());
+    // An array whose buffer was transferred has length 0, and JavaScript refuses to copy from it.
+    if length > 0 {
+        copy_to(&mut copy);
+    }
+    Ok(copy)
 }
 
 /// A plain object; `None` becomes null.

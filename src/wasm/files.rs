@@ -22,10 +22,12 @@ pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown>
     let input = read(options, &[&["format", "fileName", "weld"]])?;
     let options = ReadOptions { format: mesh_format(input.format.as_deref())?, file_name: input.file_name };
     let loaded = mesh::load(&bytes(file)?, &options, input.weld.unwrap_or(false))?;
-    let fields = Object::new();
+    let fields = Array::new();
     for (name, values) in &loaded.fields {
-        set(&fields, name, &Float64Array::from(values.as_slice()));
+        fields.push(&Array::of2(&JsValue::from_str(name), &Float64Array::from(values.as_slice())));
     }
+    // Not by assignment, which takes the name `__proto__` for something else.
+    let fields = Object::from_entries(&fields).unwrap_or_default();
     let result = Object::new();
     set(&result, "mesh", &RawTriMesh::wrap(loaded.mesh).into());
     set(&result, "fields", &fields);

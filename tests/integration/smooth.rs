@@ -318,6 +318,19 @@ fn conjugate_gradients_reach_small_epsilon() {
 }
 
 #[test]
+fn conjugate_gradients_where_rounding_is_above_their_tolerance() {
+    let mesh = shapes::torus(40, 20, 0.0).unwrap();
+    let f = noise(mesh.vertex_count(), 8);
+    for epsilon in [1e-3, 1e-4, 1e-5] {
+        let at = options(epsilon, Metric::Mass, MassScale::MeanOne);
+        let found = smoother(&mesh, LaplacianWeights::Cotangent, SolverChoice::ConjugateGradient).tikhonov(&f, &at);
+        let expected = cholesky(&mesh).tikhonov(&f, &at).unwrap().values;
+        let wrong = error_for(&f, &found.unwrap().values, &expected);
+        assert!(wrong < 1e-9, "{epsilon:e}: {wrong:e}");
+    }
+}
+
+#[test]
 fn every_component_is_smoothed_as_if_alone() {
     // Isolated vertices keep their value and take no part, however wild it is.
     let mesh = islands();

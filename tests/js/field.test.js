@@ -205,6 +205,9 @@ describe('refused', () => {
       expectError(() => method(), 'InvalidArgument', { argument: 'values' });
       expectError(() => method(new Int32Array(4)), 'InvalidArgument', { argument: 'values' });
       expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');
+      const transferred = new Float64Array(4);
+      structuredClone(transferred.buffer, { transfer: [transferred.buffer] });
+      expectError(() => method(transferred), 'LengthMismatch', { actual: 0 });
     }
   });
 
@@ -218,7 +221,9 @@ describe('refused', () => {
     expectError(call({ deltaIs: 'percent' }), 'InvalidOption', { option: 'deltaIs' });
     expectError(call({ link: 'other' }), 'InvalidOption', { option: 'link' });
     expectError(call({ rule: 1 }), 'InvalidOption', { option: 'rule' });
-    expectError(call('relative'), 'InvalidArgument', { argument: 'options' });
+    for (const options of ['relative', new Map([['delta', 0.1]]), Object.create({ delta: 0.1 })]) {
+      expectError(call(options), 'InvalidArgument', { argument: 'options' });
+    }
     expect(call({ delta: undefined, link: undefined })().counts.minima).toBe(1);
   });
 
@@ -232,5 +237,11 @@ describe('refused', () => {
     expectError(call({ cuont: 3 }), 'UnknownOption', { option: 'cuont' });
     for (const count of [-1, 1.5, NaN, '3', 1e9]) expectError(call({ count }), 'InvalidOption', { option: 'count' });
     expect(sum(call([2.5])().levels)).toBe(2.5);
+  });
+
+  it('more points than there is memory for, without a trap', () => {
+    const grid = make(square(149));
+    expectError(() => grid.levelSets(noise(grid, 1), { count: 10000 }), 'OutOfMemory');
+    expect(grid.levelSets(noise(grid, 1), { count: 1 }).levels.length).toBeGreaterThan(1);
   });
 });

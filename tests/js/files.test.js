@@ -180,6 +180,16 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
     expect(readMesh(text(OFF), { format: undefined, weld: true }).mesh.vertexCount).toBe(4);
   });
 
+  it('no field name, whatever it means to JavaScript', () => {
+    const { mesh } = readMesh(text(OFF));
+    for (const name of ['__proto__', 'constructor', 'length']) {
+      const fields = Object.fromEntries([[name, [1, 2, 3, 4]]]);
+      const read = readMesh(writeMesh(mesh, { format: 'ply', fields })).fields;
+      expect(Object.entries(read)).toEqual([[name, Float64Array.of(1, 2, 3, 4)]]);
+      expect(Object.getPrototypeOf(read)).toBe(Object.prototype);
+    }
+  });
+
   it('fields', () => {
     expectError(() => readField(text('')), 'EmptyFile');
     expectError(() => readField(text('1\ntwo\n3\n')), 'InvalidNumber', { line: 2 });

@@ -166,6 +166,41 @@ describe('tikhonov', () => {
   });
 });
 
+describe('survives', () => {
+  it('options that throw or call back', () => {
+    const f = noise(63, 1);
+    const smoother = new Smoother(small());
+    const mine = new RangeError('mine');
+    const throwing = {
+      get epsilon() {
+        throw mine;
+      },
+    };
+    expect(() => smoother.tikhonov(f, throwing)).toThrow(mine);
+    const expected = smoother.tikhonov(f, { epsilon: 1 });
+    const calling = {
+      get epsilon() {
+        return smoother.tikhonov(f, { epsilon: 2 }).report.epsilon - 1;
+      },
+    };
+    expect(smoother.tikhonov(f, calling)).toEqual(expected);
+  });
+
+  it('a vertex with so many neighbours that LᵀL does not fit into memory', () => {
+    const n = 20000;
+    const angle = (i) => (2 * Math.PI * i) / n;
+    const rim = Array.from({ length: n }, (_, i) => [Math.cos(angle(i)), Math.sin(angle(i)), 0]);
+    const fan = Array.from({ length: n }, (_, i) => [0, i + 1, ((i + 1) % n) + 1]);
+    const mesh = new TriMesh([0, 0, 1, ...rim.flat()], fan.flat());
+    const f = noise(n + 1, 1);
+    const smoother = new Smoother(mesh);
+    expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory');
+    expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory');
+    expect(mesh.criticalPoints(f).counts.indexSum).toBe(1);
+    expect(smooth(small(), noise(63, 1), { epsilon: 1 }).report.after.indexSum).toBe(0);
+  });
+});
+
 describe('progress', () => {
   it('is told phase by phase', () => {
     const seen = [];
