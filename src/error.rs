@@ -360,9 +360,11 @@ stage_error! {
         } => "option `{option}` does not apply: {reason}",
         /// An option that this version does not offer yet.
         UnsupportedOption {
-            /// Its name and value.
+            /// Its name.
             option: String,
-        } => "`{option}` is not available in this version",
+            /// The value asked for.
+            value: String,
+        } => "option `{option}`: {value} is not available in this version",
         /// An argument of the wrong type.
         InvalidArgument {
             /// The name.

@@ -139,6 +139,7 @@ impl Extent {
 
 /// The ranks of the sorted levels that cut a simplex with the given values: min < level ≤ max, so that one corner is below and
 /// one is not.
+#[inline(never)]
 fn cut(sorted: &[f64], values: &[f64]) -> Range<usize> {
     let min = values.iter().copied().fold(f64::INFINITY, f64::min);
     let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

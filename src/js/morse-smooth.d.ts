@@ -114,7 +114,7 @@ export interface ReadFieldOptions {
 /**
  * Reads a field from text: numbers with blanks or line ends between them, or a column of a table with commas, semicolons or tabs.
  *
- * @throws `InvalidNumber` with the `line`; `UnknownColumn`; `EmptyFile`
+ * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex`; `UnknownColumn`; `EmptyFile`
  */
 export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
 
@@ -127,7 +127,10 @@ export interface WriteMeshOptions {
   binary?: boolean;
 }
 
-/** Writes a mesh, and fields where the format has room for them, in double precision. */
+/**
+ * Writes a mesh, and fields where the format has room for them, in double precision. In PLY names, blanks become `_`; an empty
+ * name becomes `field`, and a name that is there already (in PLY also `x`, `y`, `z`) gets a number.
+ */
 export function writeMesh(mesh: TriMesh, options: WriteMeshOptions): Uint8Array;
 
 // ----------------------------------------------------------------------------------------------------------------- mesh

@@ -9,8 +9,8 @@ use crate::io::{self, MeshFormat, ReadOptions};
 pub struct LoadedMesh {
     /// The mesh.
     pub mesh: TriMesh,
-    /// Scalar fields by name, one value per vertex of the mesh. They are as the file has them: NaN is refused where a
-    /// field is used, not here, so that one bad field does not hide the others.
+    /// Scalar fields by name, one value per vertex of the mesh. They are as the file has them: NaN and infinity leave a
+    /// warning and are refused where the field is used, so that one bad field does not hide the others.
     pub fields: Vec<(String, Vec<f64>)>,
     /// The format read.
     pub format: MeshFormat,
@@ -40,7 +40,7 @@ pub fn load(bytes: &[u8], options: &ReadOptions, welded: bool) -> Result<LoadedM
         for (name, values) in &mut fields {
             let (one_each, disagreeing) = joined.field(values);
             *values = one_each;
-            validate::report(&mut warnings, "WeldedValues", &disagreeing, |count| {
+            validate::report(&mut warnings, "WeldedValues", &disagreeing, &|count| {
                 format!("{count} welded vertices had several values of `{name}`; the first was kept")
             });
         }
@@ -48,6 +48,13 @@ pub fn load(bytes: &[u8], options: &ReadOptions, welded: bool) -> Result<LoadedM
     } else {
         TriMesh::new(data.positions, data.triangles)?
     };
+    for (name, values) in &fields {
+        let not_finite: Vec<u32> =
+            (0..values.len() as u32).filter(|&vertex| !values[vertex as usize].is_finite()).collect();
+        validate::report(&mut warnings, "NonFiniteValue", &not_finite, &|count| {
+            format!("{count} values of `{name}` are not finite; using the field will fail")
+        });
+    }
     warnings.extend_from_slice(mesh.warnings());
     Ok(LoadedMesh { mesh, fields, format: data.format, warnings })
 }

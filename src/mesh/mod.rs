@@ -66,11 +66,11 @@ impl TriMesh {
         let zero_area: Vec<u32> =
             areas.iter().enumerate().filter(|&(_, &area)| area == 0.0).map(|(t, _)| t as u32).collect();
         let mut warnings = checked.warnings;
-        validate::report(&mut warnings, "ZeroAreaTriangle", &zero_area, |count| {
+        validate::report(&mut warnings, "ZeroAreaTriangle", &zero_area, &|count| {
             format!("{count} triangles have zero area; they count for critical points, but not for the operators")
         });
         let isolated = connectivity.isolated_vertices();
-        validate::report(&mut warnings, "IsolatedVertex", &isolated, |count| {
+        validate::report(&mut warnings, "IsolatedVertex", &isolated, &|count| {
             format!("{count} vertices belong to no triangle; they are no critical points and keep their value")
         });
         let area = areas.iter().sum();

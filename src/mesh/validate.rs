@@ -48,10 +48,10 @@ pub(super) fn check(positions: &[f64], triangles: &[u32]) -> Result<Checked, Mes
         return Err(MeshError::EmptyMesh { vertices: n, triangles: kept.len() });
     }
     let mut warnings = Vec::new();
-    report(&mut warnings, "DegenerateTriangle", &repeated_ids, |count| {
+    report(&mut warnings, "DegenerateTriangle", &repeated_ids, &|count| {
         format!("{count} triangles name a vertex twice and were left out")
     });
-    report(&mut warnings, "DuplicateTriangle", &duplicate_ids, |count| {
+    report(&mut warnings, "DuplicateTriangle", &duplicate_ids, &|count| {
         format!("{count} triangles repeat another one and were left out")
     });
     Ok(Checked { triangles: kept, repeated_id_triangles: repeated_ids.len(), warnings })
@@ -81,7 +81,7 @@ pub(super) fn report(
     warnings: &mut Vec<Diagnostic>,
     code: &'static str,
     ids: &[u32],
-    message: impl FnOnce(usize) -> String,
+    message: &dyn Fn(usize) -> String,
 ) {
     if !ids.is_empty() {
         let examples = ids.iter().copied().take(Diagnostic::EXAMPLES).collect();

@@ -8,14 +8,17 @@ use wasm_bindgen::JsValue;
 use super::error::set;
 use crate::error::{Diagnostic, SolveError};
 
+#[inline(never)]
 pub(super) fn floats(array: &Float64Array) -> Result<Vec<f64>, SolveError> {
     copied(array.length(), |copy| array.copy_to(copy))
 }
 
+#[inline(never)]
 pub(super) fn ids(array: &Uint32Array) -> Result<Vec<u32>, SolveError> {
     copied(array.length(), |copy| array.copy_to(copy))
 }
 
+#[inline(never)]
 pub(super) fn bytes(array: &Uint8Array) -> Result<Vec<u8>, SolveError> {
     copied(array.length(), |copy| array.copy_to(copy))
 }
@@ -46,6 +49,7 @@ pub(super) fn diagnostics(warnings: &[Diagnostic]) -> JsValue {
 }
 
 /// Compressed sparse columns as in the types.
+#[inline(never)]
 pub(super) fn sparse(matrix: &CscMatrix<f64>) -> JsValue {
     let narrow = |values: &[usize]| {
         let values: Vec<u32> = values.iter().map(|&v| v as u32).collect();

@@ -35,6 +35,7 @@ impl From<Thrown> for JsValue {
 }
 
 /// Sets a property of an object made here, which cannot fail.
+#[inline(never)]
 pub(super) fn set(object: &Object, name: &str, value: &JsValue) {
     let set = Reflect::set(object, &JsValue::from_str(name), value);
     debug_assert!(set.is_ok(), "a new object takes properties");

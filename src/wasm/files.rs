@@ -7,7 +7,7 @@ use super::convert::{bytes, diagnostics, floats};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{invalid, is_absent, read};
-use crate::error::OptionError;
+use crate::error::{FieldError, OptionError};
 use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::mesh;
 
@@ -53,6 +53,9 @@ pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<Float64Array, 
         _ => return Err(invalid("column", "a name or a number from 0").into()),
     };
     let values = io::read_field(&bytes(file)?, &FieldReadOptions { format, column })?;
+    if let Some(vertex) = values.iter().position(|value| !value.is_finite()) {
+        return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
+    }
     Ok(Float64Array::from(values.as_slice()))
 }
 

@@ -97,8 +97,8 @@ pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
     OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
 }
 
-fn unsupported(option: &str) -> OptionError {
-    OptionError::UnsupportedOption { option: option.to_owned() }
+fn unsupported(option: &str, value: &str) -> OptionError {
+    OptionError::UnsupportedOption { option: option.to_owned(), value: value.to_owned() }
 }
 
 pub(super) fn is_absent(value: &JsValue) -> bool {
@@ -121,7 +121,7 @@ fn choose_supported<T: Copy>(
     name: Option<&String>,
     choices: &[(&str, Option<T>)],
 ) -> Result<T, OptionError> {
-    choose(option, name, choices)?.ok_or_else(|| unsupported(&format!("{option}: {}", name.map_or("", String::as_str))))
+    choose(option, name, choices)?.ok_or_else(|| unsupported(option, name.map_or("", String::as_str)))
 }
 
 impl Options {
@@ -162,7 +162,7 @@ impl Options {
         choose_supported("operator", self.operator.as_ref(), &[("paper", Some(())), ("fem", None)])?;
         choose_supported("precision", self.precision.as_ref(), &[("double", Some(())), ("single", None)])?;
         if self.bounds == Some(true) {
-            return Err(unsupported("bounds: true"));
+            return Err(unsupported("bounds", "true"));
         }
         let solvers = [
             ("auto", SolverChoice::Auto),
@@ -183,10 +183,10 @@ impl Options {
 
     pub(super) fn tikhonov(&self) -> Result<TikhonovOptions, OptionError> {
         if self.cutoff_wavelength.is_some() {
-            return Err(unsupported("cutoffWavelength"));
+            return Err(unsupported("cutoffWavelength", "a wavelength"));
         }
         if self.epsilon.as_string().as_deref() == Some("auto") {
-            return Err(unsupported("epsilon: auto"));
+            return Err(unsupported("epsilon", "auto"));
         }
         let Some(epsilon) = self.epsilon.as_f64() else {
             return Err(invalid("epsilon", "a positive finite number, and it has no default"));
@@ -213,7 +213,7 @@ pub(super) fn read_smooth(value: &JsValue) -> Result<Options, OptionError> {
     choose_supported("method", options.method.as_ref(), &methods)?;
     for (name, value) in [("constraints", &options.constraints), ("energy", &options.energy)] {
         if !is_absent(value) {
-            return Err(unsupported(name));
+            return Err(unsupported(name, "any value"));
         }
     }
     Ok(options)
