@@ -84,9 +84,13 @@ async function bundleOne(name, platform, output) {
   const { rolldown } = await import('rolldown');
   const { version } = JSON.parse(readFileSync(inRoot('package.json'), 'utf8'));
   const define = { __VERSION__: JSON.stringify(version) };
-  const bundled = await rolldown({ input: source(name), platform, transform: { define } });
-  await bundled.write(output);
-  await bundled.close();
+  try {
+    const bundled = await rolldown({ input: source(name), platform, transform: { define } });
+    await bundled.write(output);
+    await bundled.close();
+  } catch (error) {
+    throw new Problem(`${error.message}\nThe JavaScript does not build.`);
+  }
 }
 
 const source = (name) => inRoot('src', 'js', name);

@@ -37,8 +37,9 @@ export class Handle {
 
   free() {
     this.#refuseWhileRunning('freed');
-    this.#raw?.free();
+    const raw = this.#raw;
     this.#raw = null;
+    attempt(() => raw?.free());
   }
 
   #refuseWhileRunning(what) {

@@ -3,66 +3,63 @@ import { attempt, invalidArgument } from './error.js';
 import { Handle } from './handle.js';
 import { core } from './instance.js';
 
+/** Of every mesh. (A private field would be out of reach for the functions that take a mesh.) */
+const handles = new WeakMap();
+
 /** The wasm object behind a mesh that the caller passed. */
-export let handleOf;
+export function handleOf(mesh) {
+  const handle = handles.get(mesh);
+  if (handle === undefined) throw invalidArgument('mesh', 'a TriMesh');
+  return handle;
+}
 
 export class TriMesh {
-  #handle;
   #topology = null;
-
-  static {
-    handleOf = (mesh) => {
-      if (typeof mesh === 'object' && mesh !== null && #handle in mesh) return mesh.#handle;
-      throw invalidArgument('mesh', 'a TriMesh');
-    };
-  }
 
   /** `positions` may also be a handle, which only this package has: a mesh that was read from a file. */
   constructor(positions, triangles, options) {
     if (positions instanceof Handle) {
-      this.#handle = positions;
+      handles.set(this, positions);
       return;
     }
     const { RawTriMesh } = core();
     const numbers = toNumbers(positions, 'positions');
     const ids = toTriangles(triangles, Math.floor(numbers.length / 3));
     const settings = toOptions(options);
-    this.#handle = new Handle(
-      'TriMesh',
-      attempt(() => new RawTriMesh(numbers, ids, settings)),
-    );
+    const raw = attempt(() => new RawTriMesh(numbers, ids, settings));
+    handles.set(this, new Handle('TriMesh', raw));
   }
 
   get vertexCount() {
-    return this.#handle.use((raw) => raw.vertexCount);
+    return handleOf(this).use((raw) => raw.vertexCount);
   }
 
   get edgeCount() {
-    return this.#handle.use((raw) => raw.edgeCount);
+    return handleOf(this).use((raw) => raw.edgeCount);
   }
 
   get triangleCount() {
-    return this.#handle.use((raw) => raw.triangleCount);
+    return handleOf(this).use((raw) => raw.triangleCount);
   }
 
   get area() {
-    return this.#handle.use((raw) => raw.area);
+    return handleOf(this).use((raw) => raw.area);
   }
 
   get topology() {
-    return this.#handle.use((raw) => (this.#topology ??= Object.freeze(raw.topology())));
+    return handleOf(this).use((raw) => (this.#topology ??= Object.freeze(raw.topology())));
   }
 
   get warnings() {
-    return this.#handle.use((raw) => raw.warnings());
+    return handleOf(this).use((raw) => raw.warnings());
   }
 
   positions() {
-    return this.#handle.use((raw) => raw.positions());
+    return handleOf(this).use((raw) => raw.positions());
   }
 
   triangles() {
-    return this.#handle.use((raw) => raw.triangles());
+    return handleOf(this).use((raw) => raw.triangles());
   }
 
   criticalPoints(values, options) {
@@ -79,20 +76,20 @@ export class TriMesh {
 
   laplacian(options) {
     const settings = toOptions(options);
-    return this.#handle.use((raw) => raw.laplacian(settings));
+    return handleOf(this).use((raw) => raw.laplacian(settings));
   }
 
   mass(options) {
     const settings = toOptions(options);
-    return this.#handle.use((raw) => raw.mass(settings));
+    return handleOf(this).use((raw) => raw.mass(settings));
   }
 
   free() {
-    this.#handle.free();
+    handleOf(this).free();
   }
 
   #analyse(method, values, settings) {
     const numbers = toNumbers(values, 'values');
-    return this.#handle.use((raw) => raw[method](numbers, settings));
+    return handleOf(this).use((raw) => raw[method](numbers, settings));
   }
 }
