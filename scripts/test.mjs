@@ -22,7 +22,10 @@ const sections = [
   },
   {
     name: 'Bindings, in Node',
-    run: async () => rustResults(await runWasmPack(['test', '--node', '--', '--features', 'wasm', '--test', 'bindings'], { show: true })),
+    run: async () =>
+      rustResults(
+        await runWasmPack(['test', '--node', '--', '--features', 'wasm', '--test', 'bindings'], { show: true }),
+      ),
   },
   {
     name: BUILD,
