@@ -1,6 +1,6 @@
 //! Reads bytes as text: rows, words and numbers, whatever the line ends (LF, CRLF, CR), without copying.
 //!
-//! Functions with many callers are kept from being inlined: in WebAssembly the copies were a tenth of the download.
+//! Functions with many callers are kept from being inlined: in WebAssembly the copies only grow the download (measured: by 1 %).
 
 use lexical_parse_float::FromLexical;
 
