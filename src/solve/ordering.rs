@@ -28,6 +28,15 @@ impl Permutation {
         Ok(Self { new_to_old, old_to_new })
     }
 
+    /// From ids that are known to be a permutation.
+    pub(super) fn of_valid(new_to_old: Vec<u32>) -> Self {
+        let mut old_to_new = vec![0; new_to_old.len()];
+        for (new, &old) in new_to_old.iter().enumerate() {
+            old_to_new[old as usize] = new as u32;
+        }
+        Self { new_to_old, old_to_new }
+    }
+
     /// The old id at every new place.
     #[must_use]
     pub fn new_to_old(&self) -> &[u32] {
