@@ -9,5 +9,5 @@ mod symbolic;
 pub use cg::{CgInfo, CgOptions, conjugate_gradient};
 pub use cholesky::{CholeskyAnalysis, CholeskyFactor};
 pub use matrix::{gram, norm, product, quadratic_form, submatrix, transposed_product};
-pub use ordering::{Permutation, minimum_degree};
+pub use ordering::{Permutation, minimum_degree, nested_dissection};
 pub use symbolic::FactorSize;
