@@ -5,7 +5,7 @@
 
 use core::f64::consts::TAU;
 
-use super::TriMesh;
+use super::{TriMesh, cross, norm};
 use crate::error::MeshError;
 
 /// A small reproducible generator of uniform numbers (SplitMix64, \[Steele14\]).
@@ -159,6 +159,112 @@ pub fn klein_bottle(around: u32, across: u32) -> Result<TriMesh, MeshError> {
     // One turn reverses the figure-8.
     let at = |i: u32, j: u32| if i < around { i * across + j % across } else { (across - j % across) % across };
     TriMesh::new(positions, cells(around, across, at, around >= 3 && across >= 3))
+}
+
+/// A closed tube of radius 0.4 around the trefoil knot (sin t + 2 sin 2t, cos t − 2 cos 2t, −sin 3t) with `around` × `across`
+/// vertices; `jitter` as for [`torus`]. No plane cuts it into few short pieces, which is what orderings are tested with.
+///
+/// # Errors
+/// `EmptyMesh` where a count is below 3.
+pub fn trefoil_tube(around: u32, across: u32, jitter: f64) -> Result<TriMesh, MeshError> {
+    let mut random = Random::new(u64::from(around) << 32 | u64::from(across));
+    let mut positions = Vec::with_capacity(3 * around as usize * across as usize);
+    for i in 0..around {
+        for j in 0..across {
+            let t = TAU * (f64::from(i) + jitter * random.signed()) / f64::from(around);
+            let v = TAU * (f64::from(j) + jitter * random.signed()) / f64::from(across);
+            let (sin, cos) = ([t.sin(), (2.0 * t).sin(), (3.0 * t).sin()], [t.cos(), (2.0 * t).cos(), (3.0 * t).cos()]);
+            let centre = [sin[0] + 2.0 * sin[1], cos[0] - 2.0 * cos[1], -sin[2]];
+            let velocity = [cos[0] + 4.0 * cos[1], 4.0 * sin[1] - sin[0], -3.0 * cos[2]];
+            let acceleration = [-sin[0] - 8.0 * sin[1], 8.0 * cos[1] - cos[0], 9.0 * sin[2]];
+            // The curve is never straight, as the z of this product is 31 + 4 cos 3t: so its Frenet frame closes up.
+            let binormal = unit(cross(velocity, acceleration));
+            let normal = cross(binormal, unit(velocity));
+            positions.extend((0..3).map(|k| centre[k] + 0.4 * (v.cos() * binormal[k] + v.sin() * normal[k])));
+        }
+    }
+    let at = |i: u32, j: u32| (i % around) * across + j % across;
+    TriMesh::new(positions, cells(around, across, at, around >= 3 && across >= 3))
+}
+
+/// The unit sphere with `rings` × `sectors` + 2 vertices on irregularly spaced circles of latitude, irregularly spaced on each;
+/// the first and the last vertex are poles of valence `sectors`. The same seed gives the same mesh.
+///
+/// # Errors
+/// `EmptyMesh` where `rings` is 0 or `sectors` below 3.
+pub fn irregular_sphere(rings: u32, sectors: u32, seed: u64) -> Result<TriMesh, MeshError> {
+    let mut random = Random::new(seed);
+    let latitudes = irregular_steps(rings + 1, &mut random);
+    let mut positions = vec![0., 0., 1.];
+    for latitude in &latitudes[1..] {
+        let polar = 0.5 * TAU * latitude;
+        // Steps differ by up to 1 : 7 from one to the next, and every circle has its own.
+        for longitude in irregular_steps(sectors, &mut random) {
+            let azimuth = TAU * longitude;
+            positions.extend([polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]);
+        }
+    }
+    positions.extend([0., 0., -1.]);
+    let (at, last) = (|i: u32, j: u32| 1 + i * sectors + j % sectors, (positions.len() / 3) as u32 - 1);
+    let valid = rings >= 1 && sectors >= 3;
+    let mut triangles = cells(rings.saturating_sub(1), sectors, at, valid);
+    for j in (0..sectors).filter(|_| valid) {
+        triangles.extend([0, at(0, j), at(0, j + 1), last, at(rings - 1, j + 1), at(rings - 1, j)]);
+    }
+    TriMesh::new(positions, triangles)
+}
+
+/// Where `count` irregular steps that together make 1 begin.
+fn irregular_steps(count: u32, random: &mut Random) -> Vec<f64> {
+    let steps: Vec<f64> = (0..count).map(|_| 1.0 + 0.75 * random.signed()).collect();
+    let total: f64 = steps.iter().sum();
+    steps
+        .iter()
+        .scan(0.0, |sum, step| {
+            let start = *sum / total;
+            *sum += step;
+            Some(start)
+        })
+        .collect()
+}
+
+/// Hills over a rectangle with `columns` × `rows` vertices in square cells, whose longer side is 1: an open mesh with one
+/// boundary loop. Heights are six octaves of smooth noise; the same seed gives the same hills at every resolution.
+///
+/// # Errors
+/// `EmptyMesh` where a count is below 2.
+pub fn terrain(columns: u32, rows: u32, seed: u64) -> Result<TriMesh, MeshError> {
+    let step = 1.0 / f64::from(columns.max(rows).max(2) - 1);
+    let mut positions = Vec::with_capacity(3 * columns as usize * rows as usize);
+    for i in 0..columns {
+        for j in 0..rows {
+            let (x, y) = (step * f64::from(i), step * f64::from(j));
+            let height = |octave: i32| 0.2 * 0.5_f64.powi(octave) * noise(x, y, octave, seed);
+            positions.extend([x, y, (0..6).map(height).sum()]);
+        }
+    }
+    let at = |i: u32, j: u32| i * rows + j;
+    TriMesh::new(positions, cells(columns.saturating_sub(1), rows.saturating_sub(1), at, true))
+}
+
+/// Random values in [−1, 1) at the points of a lattice with step 2^−(octave + 1), between them interpolated with slopes of zero
+/// at the points.
+fn noise(x: f64, y: f64, octave: i32, seed: u64) -> f64 {
+    let scale = 2.0_f64.powi(octave + 1);
+    let (x, y) = (scale * x, scale * y);
+    let value = |i: f64, j: f64| {
+        let place = (octave as u64) << 48 | (i as u64) << 24 | j as u64;
+        Random::new(seed ^ place.wrapping_mul(0xD134_2543_DE82_EF95)).signed()
+    };
+    let ease = |t: f64| t * t * (3.0 - 2.0 * t);
+    let blend = |t: f64, from: f64, to: f64| from + ease(t) * (to - from);
+    let (i, j) = (x.floor(), y.floor());
+    let along = |j: f64| blend(x - i, value(i, j), value(i + 1.0, j));
+    blend(y - j, along(j), along(j + 1.0))
+}
+
+fn unit(a: [f64; 3]) -> [f64; 3] {
+    a.map(|x| x / norm(a))
 }
 
 /// Two triangles for each cell of an `m` × `n` grid of cells whose corners `at` names; none unless `valid`.

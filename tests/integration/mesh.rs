@@ -41,13 +41,16 @@ fn invariants_of_known_surfaces() {
         6,
         &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1], [1, 2, 4], [2, 3, 5], [3, 4, 1], [4, 5, 2], [5, 1, 3]],
     );
-    let cases: [(&str, TriMesh, Facts); 13] = [
+    let cases: [(&str, TriMesh, Facts); 16] = [
         ("tetrahedron", shapes::tetrahedron().unwrap(), (2, 1, 0, true, true, Some(0), 0, 0, 0)),
         ("octahedron", shapes::octahedron().unwrap(), (2, 1, 0, true, true, Some(0), 0, 0, 0)),
         ("sphere", shapes::sphere(3).unwrap(), (2, 1, 0, true, true, Some(0), 0, 0, 0)),
         ("torus", shapes::torus(12, 9, 0.3).unwrap(), (0, 1, 0, true, true, Some(1), 0, 0, 0)),
         ("punctured torus", punctured, (-1, 1, 1, false, true, Some(1), 0, 0, 0)),
         ("grid", shapes::grid(7, 5).unwrap(), (1, 1, 1, false, true, Some(0), 0, 0, 0)),
+        ("trefoil tube", shapes::trefoil_tube(40, 7, 0.3).unwrap(), (0, 1, 0, true, true, Some(1), 0, 0, 0)),
+        ("irregular sphere", shapes::irregular_sphere(9, 14, 1).unwrap(), (2, 1, 0, true, true, Some(0), 0, 0, 0)),
+        ("terrain", shapes::terrain(9, 6, 1).unwrap(), (1, 1, 1, false, true, Some(0), 0, 0, 0)),
         ("annulus", annulus(), (0, 1, 2, false, true, Some(0), 0, 0, 0)),
         ("moebius strip", shapes::moebius(12, 3).unwrap(), (0, 1, 1, false, false, None, 0, 0, 0)),
         ("klein bottle", shapes::klein_bottle(9, 7).unwrap(), (0, 1, 0, true, false, None, 0, 0, 0)),
@@ -77,6 +80,74 @@ fn areas_in_closed_form() {
     assert!(errors.iter().all(|&e| e > 0.0) && errors.windows(2).all(|e| (3.8..4.2).contains(&(e[0] / e[1]))));
     // Far from the origin a triangle keeps its area.
     close(mesh(&[[1e6, 1e6, 0.0], [1e6 + 1.0, 1e6, 0.0], [1e6, 1e6 + 1.0, 0.0]], &[[0, 1, 2]]).area(), 0.5);
+}
+
+/// The volume that a closed mesh encloses: positive where its triangles face outward.
+fn volume(mesh: &TriMesh) -> f64 {
+    let corners = mesh.connectivity().triangles().iter().map(|triangle| triangle.map(|v| mesh.position(v)));
+    let product = |[a, b, c]: [[f64; 3]; 3]| {
+        let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        (0..3).map(|k| a[k] * cross[k]).sum::<f64>()
+    };
+    corners.map(product).sum::<f64>() / 6.0
+}
+
+#[test]
+fn generated_meshes_have_the_size_and_the_sides_they_promise() {
+    use core::f64::consts::PI;
+    let knot = shapes::trefoil_tube(400, 60, 0.0).unwrap();
+    assert_eq!((knot.vertex_count(), knot.triangle_count()), (24_000, 48_000));
+    // A tube has the volume of a straight one as long as its centre line (Pappus), whose length is a simple integral.
+    let length: f64 = (0..4000)
+        .map(|i| {
+            let t = 2.0 * PI * f64::from(i) / 4000.0;
+            let velocity = [t.cos() + 4.0 * (2.0 * t).cos(), 4.0 * (2.0 * t).sin() - t.sin(), -3.0 * (3.0 * t).cos()];
+            velocity.iter().map(|v| v * v).sum::<f64>().sqrt() * 2.0 * PI / 4000.0
+        })
+        .sum();
+    let exact = PI * 0.16 * length;
+    assert!((volume(&knot) / exact - 1.0).abs() < 5e-3, "{} {exact}", volume(&knot));
+
+    let sphere = shapes::irregular_sphere(99, 140, 3).unwrap();
+    assert_eq!((sphere.vertex_count(), sphere.triangle_count()), (99 * 140 + 2, 2 * 99 * 140));
+    assert!((volume(&sphere) / (4.0 / 3.0 * PI) - 1.0).abs() < 5e-3, "{}", volume(&sphere));
+    let valence = |v: u32| sphere.connectivity().edges().iter().filter(|edge| edge.contains(&v)).count();
+    assert_eq!((valence(0), valence(99 * 140 + 1)), (140, 140));
+    assert_eq!(
+        shapes::irregular_sphere(5, 8, 7).unwrap().positions(),
+        shapes::irregular_sphere(5, 8, 7).unwrap().positions()
+    );
+    assert_ne!(
+        shapes::irregular_sphere(5, 8, 7).unwrap().positions(),
+        shapes::irregular_sphere(5, 8, 8).unwrap().positions()
+    );
+
+    // Upward, in square cells, and the same hills at twice the resolution.
+    let (coarse, fine) = (shapes::terrain(31, 21, 5).unwrap(), shapes::terrain(61, 41, 5).unwrap());
+    assert_eq!((coarse.vertex_count(), coarse.triangle_count()), (31 * 21, 2 * 30 * 20));
+    for (i, j) in [(0, 0), (4, 17), (30, 20)] {
+        let (p, q) = (coarse.position(i * 21 + j), fine.position(2 * i * 41 + 2 * j));
+        assert!((0..3).all(|k| (p[k] - q[k]).abs() < 1e-12), "{p:?} {q:?}");
+        assert!((p[0] - f64::from(i) / 30.0).abs() < 1e-12 && (p[1] - f64::from(j) / 30.0).abs() < 1e-12);
+    }
+    let heights: Vec<f64> = coarse.positions().chunks_exact(3).map(|p| p[2]).collect();
+    let (low, high) = heights.iter().fold((f64::MAX, f64::MIN), |(low, high), &z| (low.min(z), high.max(z)));
+    assert!(high - low > 0.1 && high < 0.4 && low > -0.4, "{low} {high}");
+    for triangle in coarse.connectivity().triangles() {
+        let [a, b, c] = triangle.map(|v| coarse.position(v));
+        assert!((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0);
+    }
+}
+
+#[test]
+fn generators_refuse_counts_that_make_no_mesh() {
+    let empty = |found: Result<TriMesh, MeshError>| matches!(found, Err(MeshError::EmptyMesh { .. }));
+    assert!(empty(shapes::trefoil_tube(2, 9, 0.0)) && empty(shapes::trefoil_tube(9, 2, 0.0)));
+    assert!(empty(shapes::irregular_sphere(0, 9, 0)) && empty(shapes::irregular_sphere(9, 2, 0)));
+    assert!(empty(shapes::terrain(1, 9, 0)) && empty(shapes::terrain(9, 1, 0)));
+    assert!(empty(shapes::terrain(0, 0, 0)) && empty(shapes::irregular_sphere(0, 0, 0)));
+    // One circle and two poles.
+    assert_eq!(shapes::irregular_sphere(1, 3, 0).unwrap().topology().euler_characteristic, 2);
 }
 
 #[test]
