@@ -1,55 +1,53 @@
-//! The matrix LᵀL + εB on the vertices that the operators reach, and its solution.
+//! The matrix LᵀWL + εB on the vertices that the operators reach.
 
 use nalgebra_sparse::CscMatrix;
 
+use super::routes::{Routes, Task};
 use super::tikhonov::{Metric, TikhonovOptions};
-use super::{Phase, Progress, SolverChoice};
-use crate::error::{Result, SolveError};
+use super::{Operator, Progress, SmootherOptions};
+use crate::error::{Error, Result, SolveError};
 use crate::mesh::{LinkKind, TriMesh};
 use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
-use crate::solve::{
-    CgOptions, CholeskyAnalysis, CholeskyFactor, conjugate_gradient, gram, norm, product, submatrix, transposed_product,
-};
+use crate::solve::{norm, product, submatrix, transposed_product};
 
-/// A correction below this fraction of the solution ends the refinement: where refinement contracts at all, the error
-/// that is left is about the square of the relative correction.
-const SMALL_CORRECTION: f64 = 1e-8;
-const MOST_REFINEMENTS: usize = 12;
-
-/// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
-/// refinement can solve; refinement makes up the rest.
-const CG_TOLERANCE: f64 = 1e-6;
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
-
-/// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
-type SolveColumns<'a> = &'a mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>;
 
 /// Everything about a Tikhonov system that outlives one ε.
 #[derive(Debug)]
 pub(super) struct TikhonovSystem {
     /// The vertices that are unknowns, ascending.
     active: Vec<u32>,
+    /// Where they are, for the ordering.
+    positions: Vec<f64>,
     /// L on the unknowns.
     laplacian: CscMatrix<f64>,
-    /// LᵀL on the unknowns, and its analysis: made by the first direct solve.
-    direct: Option<Direct>,
     mass: Option<(Metric, MassScale, Mass)>,
-}
-
-#[derive(Debug)]
-struct Direct {
-    gram: CscMatrix<f64>,
-    analysis: CholeskyAnalysis,
-    factor: Option<(f64, Metric, MassScale, CholeskyFactor<f64>)>,
+    /// The diagonal of W: the inverse lumped masses for the finite-element operator, nothing for the paper's.
+    weights: Option<Vec<f64>>,
+    routes: Routes,
 }
 
 /// B on the unknowns.
 #[derive(Debug)]
-enum Mass {
+pub(super) enum Mass {
     Identity,
     Diagonal(Vec<f64>),
     Matrix(CscMatrix<f64>),
+}
+
+/// (LᵀWL/scale + εB) x = εBf
+#[derive(Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) laplacian: &'a CscMatrix<f64>,
+    pub(super) weights: Option<&'a [f64]>,
+    pub(super) mass: &'a Mass,
+    /// ε/scale.
+    pub(super) epsilon: f64,
+    /// The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
+    pub(super) scale: f64,
+    /// Whether L is symmetric.
+    pub(super) symmetric: bool,
 }
 
 /// One solved channel.
@@ -58,7 +56,7 @@ pub(super) struct Solution {
     pub(super) values: Vec<Option<f64>>,
     /// ‖x − f‖_B.
     pub(super) metric_norm: f64,
-    /// ‖εBf − (LᵀL + εB)x‖₂ / ‖εBf‖₂ in factored form.
+    /// ‖εBf − (LᵀWL + εB)x‖₂ / ‖εBf‖₂ in factored form.
     pub(super) relative_residual: f64,
     pub(super) refinement_steps: usize,
     pub(super) iterations: usize,
@@ -68,12 +66,13 @@ pub(super) struct Solution {
 pub(super) struct Solved {
     pub(super) solutions: Vec<Solution>,
     pub(super) route: &'static str,
+    pub(super) precision: &'static str,
     pub(super) unknowns: usize,
     pub(super) factor_nonzeros: u64,
 }
 
 impl TikhonovSystem {
-    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
         let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
         let kinds = mesh.connectivity().link_kinds();
         // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero.
@@ -81,13 +80,17 @@ impl TikhonovSystem {
             .col_iter()
             .enumerate()
             .filter(|(v, column)| {
-                kinds[*v] != LinkKind::Isolated && (areas[*v] > 0.0 || column.values().iter().any(|&x| x != 0.0))
+                let tied = areas[*v] > 0.0 || column.values().iter().any(|&x| x != 0.0);
+                // The finite-element operator divides by areas.
+                kinds[*v] != LinkKind::Isolated && tied && (operator == Operator::Paper || areas[*v].recip().is_finite())
             })
             .map(|(v, _)| v as u32)
             .collect();
         let laplacian =
             if active.len() == laplacian.ncols() { laplacian.clone() } else { submatrix(laplacian, &active) };
-        Ok(Self { active, laplacian, direct: None, mass: None })
+        let positions = active.iter().flat_map(|&v| mesh.position(v)).collect();
+        let weights = (operator == Operator::Fem).then(|| active.iter().map(|&v| areas[v as usize].recip()).collect());
+        Ok(Self { active, positions, laplacian, mass: None, weights, routes: Routes::default() })
     }
 
     /// Solves for every channel of normalised values.
@@ -96,219 +99,155 @@ impl TikhonovSystem {
         mesh: &TriMesh,
         fields: &[Vec<f64>],
         options: &TikhonovOptions,
-        solver: SolverChoice,
+        smoother: &SmootherOptions,
         progress: Progress<'_>,
     ) -> Result<Solved> {
-        self.prepare_mass(mesh, options)?;
+        self.prepare_mass(mesh, options, smoother.operator)?;
+        let Some((metric, mass_scale, mass)) = &self.mass else { return Err(SolveError::PatternMismatch {}.into()) };
         let fields: Vec<Vec<f64>> =
             fields.iter().map(|f| self.active.iter().map(|&v| f[v as usize]).collect()).collect();
-        // The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
         let scale = options.epsilon.max(1.0);
-        let epsilon = options.epsilon / scale;
-        let heaviest = (0..self.active.len()).map(|i| self.mass().diagonal(i)).fold(0.0, f64::max);
-        if !self.active.is_empty() && epsilon * heaviest < SMALLEST_WEIGHT {
-            return Err(SolveError::NotPositiveDefinite { column: 0 }.into());
-        }
-        let (solutions, route, factor_nonzeros) = match solver {
-            _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
-            SolverChoice::ConjugateGradient => {
-                progress(Phase::Solve, 0.1);
-                (self.iterative(&fields, epsilon, scale)?, "cg", 0)
-            }
-            SolverChoice::Auto | SolverChoice::Cholesky => {
-                self.factorize(options, epsilon, scale, progress)?;
-                progress(Phase::Solve, 0.9);
-                let nonzeros = self.direct.as_ref().map_or(0, |direct| direct.analysis.size().nonzeros);
-                (self.direct(&fields, epsilon, scale)?, "cholesky", nonzeros)
-            }
+        let problem = Problem {
+            laplacian: &self.laplacian,
+            weights: self.weights.as_deref(),
+            mass,
+            epsilon: options.epsilon / scale,
+            scale,
+            symmetric: smoother.weights.is_symmetric(),
         };
-        let solutions = solutions
+        let heaviest = (0..self.active.len()).map(|i| mass.diagonal(i)).fold(0.0, f64::max);
+        if let Some(&column) = self.active.first()
+            && problem.epsilon * heaviest < SMALLEST_WEIGHT
+        {
+            return Err(SolveError::NotPositiveDefinite { column: column as usize }.into());
+        }
+        let task = Task {
+            problem,
+            key: (options.epsilon, *metric, *mass_scale),
+            fields: &fields,
+            positions: &self.positions,
+            choice: smoother.solver,
+            precision: smoother.precision,
+        };
+        let answer = self.routes.solve(&task, progress).map_err(|error| self.by_vertex(error))?;
+        let solutions = answer
+            .iterates
             .into_iter()
             .zip(&fields)
-            .map(|(iterate, f)| self.finish(&iterate, f, mesh.vertex_count(), epsilon, scale))
-            .collect();
-        Ok(Solved { solutions, route, unknowns: self.active.len(), factor_nonzeros })
-    }
-
-    fn prepare_mass(&mut self, mesh: &TriMesh, options: &TikhonovOptions) -> Result<()> {
-        if let Some((metric, scale, _)) = self.mass
-            && metric == options.metric
-            && (metric == Metric::Identity || scale == options.mass_scale)
-        {
-            return Ok(());
-        }
-        let mass = match options.metric {
-            Metric::Identity => Mass::Identity,
-            Metric::Mass => Mass::Matrix(submatrix(&galerkin_mass(mesh, options.mass_scale)?, &self.active)),
-            Metric::Lumped => {
-                let diagonal = lumped_mass_diagonal(mesh, options.mass_scale)?;
-                Mass::Diagonal(self.active.iter().map(|&v| diagonal[v as usize]).collect())
-            }
-        };
-        self.mass = Some((options.metric, options.mass_scale, mass));
-        Ok(())
-    }
-
-    fn mass(&self) -> &Mass {
-        self.mass.as_ref().map_or(&Mass::Identity, |(_, _, mass)| mass)
-    }
-
-    fn factorize(
-        &mut self,
-        options: &TikhonovOptions,
-        epsilon: f64,
-        scale: f64,
-        progress: Progress<'_>,
-    ) -> Result<(), SolveError> {
-        let mut direct = match self.direct.take() {
-            Some(direct) => direct,
-            None => {
-                progress(Phase::Analysis, 0.0);
-                let gram = gram(&self.laplacian)?;
-                let analysis = CholeskyAnalysis::new(gram.pattern().clone())?;
-                Direct { gram, analysis, factor: None }
-            }
-        };
-        let wanted = (options.epsilon, options.metric, options.mass_scale);
-        let factor = match direct.factor.take() {
-            Some((epsilon, metric, mass_scale, factor)) if (epsilon, metric, mass_scale) == wanted => Ok(factor),
-            previous => {
-                progress(Phase::Factorization, 0.2);
-                let values = combine(&direct.gram, self.mass(), epsilon, scale);
-                match previous {
-                    Some((_, _, _, mut factor)) => factor.refactor(&values).map(|()| factor),
-                    None => direct.analysis.factor(&values),
+            .map(|(iterate, f)| {
+                let mut values = vec![None; mesh.vertex_count()];
+                for (&v, &x) in self.active.iter().zip(&iterate.x) {
+                    values[v as usize] = Some(x);
                 }
-            }
-        };
-        let outcome = factor.map(|factor| direct.factor = Some((wanted.0, wanted.1, wanted.2, factor)));
-        self.direct = Some(direct);
-        outcome
-    }
-
-    /// A⁻¹εBf by the factor.
-    fn direct(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
-        let Some((_, _, _, factor)) = self.direct.as_ref().and_then(|direct| direct.factor.as_ref()) else {
-            return Err(SolveError::PatternMismatch {});
-        };
-        self.refine(fields, epsilon, scale, &mut |right_hand_sides, _| factor.solve(right_hand_sides))
-    }
-
-    /// A⁻¹εBf by conjugate gradients with the matrix in factored form.
-    fn iterative(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
-        let mut diagonal: Vec<f64> = self
-            .laplacian
-            .col_iter()
-            .map(|column| column.values().iter().map(|v| v * v).sum::<f64>() / scale)
+                Solution {
+                    values,
+                    metric_norm: mass.norm(&difference(&iterate.x, f)),
+                    relative_residual: problem.relative_residual(f, &iterate.x),
+                    refinement_steps: iterate.refinement_steps,
+                    iterations: iterate.iterations,
+                }
+            })
             .collect();
-        for (i, d) in diagonal.iter_mut().enumerate() {
-            *d += epsilon * self.mass().diagonal(i);
-        }
-        let apply = |x: &[f64]| {
-            let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
-            self.mass().times(x).iter().zip(smooth).map(|(b, l)| epsilon * b + l / scale).collect()
-        };
-        let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
-        self.refine(fields, epsilon, scale, &mut |right_hand_sides, iterations| {
-            let mut solutions = vec![0.0; right_hand_sides.len()];
-            let n = self.active.len();
-            let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
-            for ((b, x), iterations) in columns.zip(iterations) {
-                *iterations += conjugate_gradient(apply, &diagonal, b, x, &options)?.iterations;
-            }
-            Ok(solutions)
+        Ok(Solved {
+            solutions,
+            route: answer.route,
+            precision: answer.precision,
+            unknowns: self.active.len(),
+            factor_nonzeros: answer.factor_nonzeros,
         })
     }
 
-    /// Starts from zero and adds A⁻¹ of the residual until what is added is small, every channel for as long as it needs.
-    /// `solve` gets the residuals of the open channels one after the other, and their counts of iterations to add to.
-    fn refine(
-        &self,
-        fields: &[Vec<f64>],
-        epsilon: f64,
-        scale: f64,
-        solve: SolveColumns<'_>,
-    ) -> Result<Vec<Iterate>, SolveError> {
-        let n = self.active.len();
-        let mut iterates: Vec<Iterate> =
-            fields.iter().map(|_| Iterate { x: vec![0.0; n], ..Iterate::default() }).collect();
-        let mut open: Vec<usize> = (0..fields.len()).collect();
-        let mut previous = vec![f64::INFINITY; fields.len()];
-        for step in 0..=MOST_REFINEMENTS {
-            let residuals: Vec<f64> =
-                open.iter().flat_map(|&c| self.residual(&fields[c], &iterates[c].x, epsilon, scale)).collect();
-            let mut iterations = vec![0; open.len()];
-            let corrections = solve(&residuals, &mut iterations)?;
-            let mut still_open = Vec::new();
-            for ((&c, correction), iterations) in open.iter().zip(corrections.chunks_exact(n)).zip(iterations) {
-                let iterate = &mut iterates[c];
-                iterate.iterations += iterations;
-                iterate.refinement_steps = step;
-                let size = norm(correction) / norm(&iterate.x).max(f64::MIN_POSITIVE);
-                iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
-                // The first solution is no correction: what it is corrected by tells how good it was.
-                if step > 0 {
-                    if !(size.is_finite() && size < 0.5 * previous[c] && size < 0.5) {
-                        return Err(SolveError::NotConverged { iterations: step, residual: size });
-                    }
-                    previous[c] = size;
-                }
-                if step == 0 || size > SMALL_CORRECTION {
-                    still_open.push(c);
-                }
+    /// Unknowns are vertices to the user.
+    fn by_vertex(&self, error: SolveError) -> Error {
+        match error {
+            SolveError::NotPositiveDefinite { column } => {
+                let column = self.active.get(column).map_or(column, |&v| v as usize);
+                SolveError::NotPositiveDefinite { column }.into()
             }
-            open = still_open;
-            if open.is_empty() {
-                return Ok(iterates);
+            SolveError::NonFiniteEntry { row } => {
+                let row = self.active.get(row).map_or(row, |&v| v as usize);
+                SolveError::NonFiniteEntry { row }.into()
             }
+            other => other.into(),
         }
-        let residual = open.iter().map(|&c| previous[c]).fold(0.0, f64::max);
-        Err(SolveError::NotConverged { iterations: MOST_REFINEMENTS, residual })
     }
 
-    /// εB(f − x) − Lᵀ(Lx): never with the assembled LᵀL, whose rounding the refinement is there to remove.
-    #[inline(never)]
-    fn residual(&self, f: &[f64], x: &[f64], epsilon: f64, scale: f64) -> Vec<f64> {
-        let difference: Vec<f64> = f.iter().zip(x).map(|(f, x)| f - x).collect();
-        let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
-        self.mass().times(&difference).iter().zip(smooth).map(|(b, l)| epsilon * b - l / scale).collect()
-    }
-
-    fn finish(&self, iterate: &Iterate, f: &[f64], vertices: usize, epsilon: f64, scale: f64) -> Solution {
-        let mut values = vec![None; vertices];
-        for (&v, &x) in self.active.iter().zip(&iterate.x) {
-            values[v as usize] = Some(x);
-        }
-        let (relative_residual, metric_norm) = if iterate.x.is_empty() {
-            (0.0, 0.0)
-        } else {
-            let right_hand_side = epsilon * norm(&self.mass().times(f));
-            let residual = norm(&self.residual(f, &iterate.x, epsilon, scale));
-            let difference: Vec<f64> = iterate.x.iter().zip(f).map(|(x, f)| x - f).collect();
-            let image = self.mass().times(&difference);
-            let square: f64 = image.iter().zip(&difference).map(|(a, b)| a * b).sum();
-            (if residual == 0.0 { 0.0 } else { residual / right_hand_side }, square.max(0.0).sqrt())
+    fn prepare_mass(&mut self, mesh: &TriMesh, options: &TikhonovOptions, operator: Operator) -> Result<()> {
+        let (metric, mass_scale) = match operator {
+            Operator::Paper => (options.metric, options.mass_scale),
+            Operator::Fem => (Metric::Lumped, MassScale::Raw),
         };
-        Solution {
-            values,
-            metric_norm,
-            relative_residual,
-            refinement_steps: iterate.refinement_steps,
-            iterations: iterate.iterations,
+        if let Some((known_metric, known_scale, _)) = self.mass
+            && metric == known_metric
+            && (metric == Metric::Identity || mass_scale == known_scale)
+        {
+            return Ok(());
         }
+        let mass = match metric {
+            Metric::Identity => Mass::Identity,
+            Metric::Mass => Mass::Matrix(submatrix(&galerkin_mass(mesh, mass_scale)?, &self.active)),
+            Metric::Lumped => {
+                let diagonal = lumped_mass_diagonal(mesh, mass_scale)?;
+                Mass::Diagonal(self.active.iter().map(|&v| diagonal[v as usize]).collect())
+            }
+        };
+        self.mass = Some((metric, mass_scale, mass));
+        Ok(())
     }
 }
 
-#[derive(Default)]
-struct Iterate {
-    x: Vec<f64>,
-    refinement_steps: usize,
-    iterations: usize,
+fn difference(x: &[f64], f: &[f64]) -> Vec<f64> {
+    x.iter().zip(f).map(|(x, f)| x - f).collect()
+}
+
+impl Problem<'_> {
+    pub(super) fn unknowns(&self) -> usize {
+        self.laplacian.ncols()
+    }
+
+    /// LᵀWLx/scale: never with an assembled LᵀWL, whose rounding the refinement is there to remove.
+    #[inline(never)]
+    pub(super) fn smoothing(&self, x: &[f64]) -> Vec<f64> {
+        // A symmetric L is its own transpose, and the product with the transpose gathers, which is faster.
+        let mut image =
+            if self.symmetric { transposed_product(self.laplacian, x) } else { product(self.laplacian, x) };
+        match self.weights {
+            Some(weights) => image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w / self.scale),
+            None => image.iter_mut().for_each(|y| *y /= self.scale),
+        }
+        transposed_product(self.laplacian, &image)
+    }
+
+    /// εB(f − x) − LᵀWLx/scale
+    pub(super) fn residual(&self, f: &[f64], x: &[f64]) -> Vec<f64> {
+        let pull = self.mass.times(&difference(f, x));
+        pull.iter().zip(self.smoothing(x)).map(|(b, l)| self.epsilon * b - l).collect()
+    }
+
+    /// (LᵀWL/scale + εB) x
+    pub(super) fn apply(&self, x: &[f64]) -> Vec<f64> {
+        self.mass.times(x).iter().zip(self.smoothing(x)).map(|(b, l)| self.epsilon * b + l).collect()
+    }
+
+    /// The diagonal of LᵀWL/scale + εB.
+    pub(super) fn diagonal(&self) -> Vec<f64> {
+        let weight = |row: usize| self.weights.map_or(1.0, |weights| weights[row]);
+        let squares = self.laplacian.col_iter().map(|column| {
+            let entries = column.row_indices().iter().zip(column.values());
+            entries.map(|(&row, v)| v * v * weight(row)).sum::<f64>()
+        });
+        squares.enumerate().map(|(i, d)| d / self.scale + self.epsilon * self.mass.diagonal(i)).collect()
+    }
+
+    fn relative_residual(&self, f: &[f64], x: &[f64]) -> f64 {
+        let residual = norm(&self.residual(f, x));
+        if residual == 0.0 { 0.0 } else { residual / (self.epsilon * norm(&self.mass.times(f))) }
+    }
 }
 
 impl Mass {
     #[inline(never)]
-    fn times(&self, x: &[f64]) -> Vec<f64> {
+    pub(super) fn times(&self, x: &[f64]) -> Vec<f64> {
         match self {
             Self::Identity => x.to_vec(),
             Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
@@ -317,39 +256,17 @@ impl Mass {
         }
     }
 
-    fn diagonal(&self, i: usize) -> f64 {
+    pub(super) fn diagonal(&self, i: usize) -> f64 {
         match self {
             Self::Identity => 1.0,
             Self::Diagonal(diagonal) => diagonal[i],
             Self::Matrix(matrix) => matrix.get_entry(i, i).map_or(0.0, |entry| entry.into_value()),
         }
     }
-}
 
-/// The values of (LᵀL)/scale + εB on the pattern of LᵀL, which holds that of B.
-fn combine(gram: &CscMatrix<f64>, mass: &Mass, epsilon: f64, scale: f64) -> Vec<f64> {
-    let mut values: Vec<f64> = gram.values().iter().map(|value| value / scale).collect();
-    for j in 0..gram.ncols() {
-        let start = gram.col_offsets()[j];
-        let column = gram.col(j);
-        let rows = column.row_indices();
-        match mass {
-            Mass::Matrix(matrix) => {
-                let mass_column = matrix.col(j);
-                let mut place = 0;
-                for (&row, &value) in mass_column.row_indices().iter().zip(mass_column.values()) {
-                    while rows[place] < row {
-                        place += 1;
-                    }
-                    values[start + place] += epsilon * value;
-                }
-            }
-            Mass::Identity | Mass::Diagonal(_) => {
-                if let Ok(place) = rows.binary_search(&j) {
-                    values[start + place] += epsilon * mass.diagonal(j);
-                }
-            }
-        }
+    /// ‖x‖_B
+    fn norm(&self, x: &[f64]) -> f64 {
+        let square: f64 = self.times(x).iter().zip(x).map(|(a, b)| a * b).sum();
+        square.max(0.0).sqrt()
     }
-    values
 }

@@ -255,7 +255,7 @@ macro_rules! units {
                 self.iter().sum()
             }
 
-            #[inline]
+            #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
                 update::<Self, 4>(result, a, b);
             }
@@ -303,7 +303,7 @@ macro_rules! units {
                 Complex::new(self.re.iter().sum(), self.im.iter().sum())
             }
 
-            #[inline]
+            #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
                 update::<Self, 2>(result, a, b);
             }

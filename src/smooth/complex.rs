@@ -1,0 +1,129 @@
+//! The complex routes: L² + εI = (L + i√ε)(L − i√ε), with one complex solve on the pattern of L where the real route needs
+//! the pattern of LᵀL, and with the condition number of L instead of its square.
+//!
+//! With D = √ε·B for a diagonal B, and W = B⁻¹, partial fractions give (LWL + εB)⁻¹ εBf = −Im((L + iD)⁻¹ D f). Where the
+//! product does not hold, for eq. (5), (L + iD)(L − iD) is still an excellent preconditioner.
+
+use nalgebra::Complex;
+use nalgebra_sparse::CscMatrix;
+
+use super::factors::{Factor, Factors};
+use super::iterative;
+use super::refine::{Iterate, Refinement, refine};
+use super::routes::{Answer, Task, name};
+use super::system::Mass;
+use super::{Phase, Precision, Progress};
+use crate::error::SolveError;
+use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
+
+/// The analysis of L, and the last factor of L + iD.
+#[derive(Debug)]
+pub(super) struct ComplexRoute {
+    factors: Factors<Complex<f64>, Complex<f32>>,
+}
+
+type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
+
+impl ComplexRoute {
+    pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
+        let pattern = task.problem.laplacian.pattern().clone();
+        let analysis = CholeskyAnalysis::with_coordinates(pattern, task.positions)?;
+        Ok(Self { factors: Factors::new(analysis) })
+    }
+
+    /// Solves with the factor itself where it is `exact`, else by conjugate gradients.
+    pub(super) fn solve(
+        &mut self,
+        task: &Task<'_>,
+        precision: Precision,
+        exact: bool,
+        progress: Progress<'_>,
+    ) -> Result<Answer, SolveError> {
+        let shift = shift(task, exact);
+        let values = |_: &CholeskyAnalysis| shifted(task.problem.laplacian, &shift);
+        let factor = self.factors.take(task.key, precision, &values, progress)?;
+        progress(Phase::Solve, 0.8);
+        let (iterates, route) = if exact {
+            (split(task, &factor, &shift, task.tolerance(precision))?, "complexCholesky")
+        } else {
+            (iterative::refined(task, &Product { factor: &factor, size: shift.len() })?, "cgComplexCholesky")
+        };
+        self.factors.keep(task.key, factor);
+        let factor_nonzeros = self.factors.analysis.size().nonzeros;
+        Ok(Answer { iterates, route, precision: name(precision), factor_nonzeros })
+    }
+}
+
+/// The diagonal of D: √ε·B where that is exact, else √(ε·m) with the lumped masses m.
+fn shift(task: &Task<'_>, exact: bool) -> Vec<f64> {
+    let root = task.key.0.sqrt();
+    let n = task.problem.unknowns();
+    match task.problem.mass {
+        Mass::Identity => vec![root; n],
+        Mass::Diagonal(masses) if exact => masses.iter().map(|m| root * m).collect(),
+        Mass::Diagonal(masses) => masses.iter().map(|m| root * m.sqrt()).collect(),
+        // The rows of the Galerkin mass matrix sum to the lumped masses.
+        mass @ Mass::Matrix(_) => mass.times(&vec![1.0; n]).iter().map(|m| root * m.sqrt()).collect(),
+    }
+}
+
+/// The values of L + iD.
+fn shifted(laplacian: &CscMatrix<f64>, shift: &[f64]) -> Vec<Complex<f64>> {
+    let entry = |(row, column, &value)| Complex::new(value, if row == column { shift[row] } else { 0.0 });
+    laplacian.triplet_iter().map(entry).collect()
+}
+
+/// x = −Im z with (L + iD) z = D f, refined in complex numbers; z is kept as its real parts, then its imaginary parts.
+fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64) -> Result<Vec<Iterate>, SolveError> {
+    let (laplacian, n) = (task.problem.laplacian, shift.len());
+    let residual = |c: usize, z: &[f64]| {
+        let (re, im) = z.split_at(n);
+        let f: &[f64] = &task.fields[c];
+        let real = transposed_product(laplacian, re);
+        let imaginary = transposed_product(laplacian, im);
+        let real = (0..n).map(|i| shift[i] * (f[i] + im[i]) - real[i]);
+        let imaginary = (0..n).map(|i| -(imaginary[i] + shift[i] * re[i]));
+        real.chain(imaginary).collect()
+    };
+    let mut iterates = refine(Refinement {
+        count: task.fields.len(),
+        length: 2 * n,
+        wanted: n..2 * n,
+        tolerance,
+        residual: &residual,
+        solve: &mut |residuals, _| {
+            let pairs = |r: &[f64]| -> Vec<Complex<f64>> { (0..n).map(|i| Complex::new(r[i], r[n + i])).collect() };
+            let b: Vec<Complex<f64>> = residuals.chunks_exact(2 * n).flat_map(pairs).collect();
+            let solved = factor.solve(&b)?;
+            let mut planar = Vec::with_capacity(residuals.len());
+            for z in solved.chunks_exact(n) {
+                planar.extend(z.iter().map(|z| z.re));
+                planar.extend(z.iter().map(|z| z.im));
+            }
+            Ok(planar)
+        },
+    })?;
+    for iterate in &mut iterates {
+        iterate.x = iterate.x[n..].iter().map(|im| -im).collect();
+    }
+    Ok(iterates)
+}
+
+/// The real part of ((L + iD)(L − iD))⁻¹, which is symmetric positive definite as the product is Hermitian so.
+struct Product<'a> {
+    factor: &'a ComplexFactor,
+    size: usize,
+}
+
+impl Preconditioner for Product<'_> {
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+        let r: Vec<Complex<f64>> = r.iter().map(|&r| Complex::new(r, 0.0)).collect();
+        // (L − iD)⁻¹ y is the conjugate of (L + iD)⁻¹ applied to the conjugate of y.
+        let conjugate: Vec<Complex<f64>> = self.factor.solve(&r)?.iter().map(|y| y.conj()).collect();
+        Ok(self.factor.solve(&conjugate)?.iter().map(|z| z.re).collect())
+    }
+}

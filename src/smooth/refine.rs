@@ -1,0 +1,83 @@
+//! Iterative refinement: what every solver's solution is brought to full accuracy with.
+
+use core::ops::Range;
+
+use crate::error::SolveError;
+use crate::solve::norm;
+
+const MOST_STEPS: usize = 12;
+/// Relative corrections of this size are rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// One solved right-hand side.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Iterate {
+    pub(super) x: Vec<f64>,
+    pub(super) refinement_steps: usize,
+    pub(super) iterations: usize,
+}
+
+/// What [`refine`] works on.
+pub(super) struct Refinement<'a> {
+    /// Number of right-hand sides.
+    pub(super) count: usize,
+    /// Length of each solution, and the part of it that is wanted.
+    pub(super) length: usize,
+    pub(super) wanted: Range<usize>,
+    /// The relative error that is small enough.
+    pub(super) tolerance: f64,
+    /// The residual of a right-hand side at an approximate solution.
+    pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
+    /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
+    pub(super) solve: &'a mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>,
+}
+
+/// Starts from zero and adds the solution for the residual until little is added, for each right-hand side for as long as
+/// it needs.
+///
+/// A step leaves an error of about the correction times the factor by which corrections shrink; the first correction,
+/// relative to the solution, is such a factor too.
+///
+/// # Errors
+/// `NotConverged` where corrections do not shrink; those of the solver.
+pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
+    let n = task.length;
+    let start = Iterate { x: vec![0.0; n], ..Iterate::default() };
+    let mut iterates = vec![start; task.count];
+    let mut open: Vec<usize> = (0..task.count).collect();
+    let (mut previous, mut slowest) = (vec![1.0; task.count], vec![0.0_f64; task.count]);
+    for step in 0..=MOST_STEPS {
+        let residuals: Vec<f64> = open.iter().flat_map(|&c| (task.residual)(c, &iterates[c].x)).collect();
+        let mut iterations = vec![0; open.len()];
+        let corrections = (task.solve)(&residuals, &mut iterations)?;
+        let mut still_open = Vec::new();
+        for ((&c, correction), iterations) in open.iter().zip(corrections.chunks_exact(n)).zip(iterations) {
+            let iterate = &mut iterates[c];
+            iterate.iterations += iterations;
+            iterate.refinement_steps = step;
+            let wanted = task.wanted.clone();
+            let size = norm(&correction[wanted.clone()]) / norm(&iterate.x[wanted]).max(f64::MIN_POSITIVE);
+            iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
+            // The first solution is no correction: what it is corrected by tells how good it was.
+            if step == 0 {
+                still_open.push(c);
+                continue;
+            }
+            let shrunk = size / previous[c];
+            if !(size.is_finite() && shrunk < 0.5) {
+                return Err(SolveError::NotConverged { iterations: step, residual: size });
+            }
+            previous[c] = size;
+            slowest[c] = slowest[c].max(shrunk);
+            if size > ROUNDING && size * slowest[c] > task.tolerance {
+                still_open.push(c);
+            }
+        }
+        open = still_open;
+        if open.is_empty() {
+            return Ok(iterates);
+        }
+    }
+    let residual = open.iter().map(|&c| previous[c]).fold(0.0, f64::max);
+    Err(SolveError::NotConverged { iterations: MOST_STEPS, residual })
+}

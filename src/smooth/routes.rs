@@ -1,0 +1,172 @@
+//! The ways to solve a Tikhonov system, and the choice between them.
+//!
+//! | route | for | costs |
+//! | --- | --- | --- |
+//! | `complexCholesky` | a symmetric L with B = I (eq. 3), and the finite-element operator | a complex factor on the pattern of L |
+//! | `cholesky` | everything | a real factor on the pattern of LᵀL |
+//! | `cgComplexCholesky` | eq. (5) with a symmetric L, when LᵀL is large | a complex factor on the pattern of L, some iterations |
+//! | `cgMultigrid` | a symmetric L, when no factor fits | iterations in little memory |
+//! | `cgJacobi` | everything | little memory, many iterations for small ε |
+
+use super::complex::ComplexRoute;
+use super::iterative;
+use super::real::RealRoute;
+use super::refine::Iterate;
+use super::system::{Mass, Problem};
+use super::tikhonov::Metric;
+use super::{Phase, Precision, Progress, SolverChoice};
+use crate::error::SolveError;
+use crate::operators::MassScale;
+
+/// From about this many unknowns on, conjugate gradients with the complex factor beat the factor of LᵀL, whose cost grows
+/// faster (measured: benches/README.md).
+const LARGE: usize = 400_000;
+/// Relative errors that refinement stops at: far below every use of the result, and above what a step could still mend.
+const DOUBLE: f64 = 1e-16;
+const SINGLE: f64 = 2e-11;
+
+/// What a factor belongs to: ε and the mass matrix.
+pub(super) type Key = (f64, Metric, MassScale);
+
+/// One call.
+pub(super) struct Task<'a> {
+    pub(super) problem: Problem<'a>,
+    pub(super) key: Key,
+    /// One per channel, on the unknowns.
+    pub(super) fields: &'a [Vec<f64>],
+    /// Where the unknowns are.
+    pub(super) positions: &'a [f64],
+    pub(super) choice: SolverChoice,
+    pub(super) precision: Precision,
+}
+
+/// Solutions, one per channel, and where they come from.
+pub(super) struct Answer {
+    pub(super) iterates: Vec<Iterate>,
+    pub(super) route: &'static str,
+    pub(super) precision: &'static str,
+    pub(super) factor_nonzeros: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Route {
+    ComplexCholesky,
+    Cholesky,
+    CgComplexCholesky,
+    Iterative,
+}
+
+/// Analyses and factors, kept for the next call.
+#[derive(Debug, Default)]
+pub(super) struct Routes {
+    real: Option<RealRoute>,
+    complex: Option<ComplexRoute>,
+}
+
+impl Task<'_> {
+    /// Whether the complex factor solves the system itself: LᵀWL + εB is (L + i√ε·B) B⁻¹ (L − i√ε·B).
+    fn splits(&self) -> bool {
+        let matching = self.problem.weights.is_some() || matches!(self.problem.mass, Mass::Identity);
+        self.problem.symmetric && matching
+    }
+
+    /// The routes to try, the best one first.
+    fn candidates(&self) -> &'static [Route] {
+        let large = self.problem.unknowns() >= LARGE;
+        match (self.choice, self.splits()) {
+            (SolverChoice::ConjugateGradient, _) => &[Route::Iterative],
+            (SolverChoice::Cholesky, true) => &[Route::ComplexCholesky],
+            (SolverChoice::Cholesky, false) => &[Route::Cholesky],
+            (SolverChoice::Auto, true) => &[Route::ComplexCholesky, Route::Iterative],
+            (SolverChoice::Auto, false) if !self.problem.symmetric => &[Route::Cholesky, Route::Iterative],
+            (SolverChoice::Auto, false) if large => &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative],
+            (SolverChoice::Auto, false) => &[Route::Cholesky, Route::CgComplexCholesky, Route::Iterative],
+        }
+    }
+
+    /// Refines to the accuracy of the precision.
+    pub(super) fn tolerance(&self, precision: Precision) -> f64 {
+        if precision == Precision::Single { SINGLE } else { DOUBLE }
+    }
+}
+
+impl Routes {
+    /// Tries the routes in turn: the next one where memory is short or a factor is not good enough. The first failure is
+    /// the one reported.
+    pub(super) fn solve(&mut self, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
+        if task.problem.unknowns() == 0 {
+            let iterates = vec![Iterate::default(); task.fields.len()];
+            return Ok(Answer { iterates, route: "none", precision: "double", factor_nonzeros: 0 });
+        }
+        let mut first_failure = None;
+        for &route in task.candidates() {
+            // Iterations hardly go where a factor did not; they only need less memory.
+            let hopeless = first_failure.as_ref().is_some_and(|f| !matches!(f, SolveError::OutOfMemory { .. }));
+            if route == Route::Iterative && hopeless {
+                break;
+            }
+            match self.by(route, task, progress) {
+                Err(failure) => {
+                    first_failure.get_or_insert(failure);
+                }
+                answer => return answer,
+            }
+        }
+        Err(first_failure.unwrap_or(SolveError::PatternMismatch {}))
+    }
+
+    fn by(&mut self, route: Route, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
+        if route == Route::Iterative {
+            *self = Self::default();
+            progress(Phase::Solve, 0.1);
+            return iterative::solve(task);
+        }
+        if task.precision == Precision::Single {
+            match self.factored(route, task, Precision::Single, progress) {
+                Ok(answer) => return Ok(answer),
+                // Single precision was not enough for this matrix.
+                Err(SolveError::NotPositiveDefinite { .. } | SolveError::NotConverged { .. }) => {}
+                Err(other) => return Err(other),
+            }
+            let answer = self.factored(route, task, Precision::Double, progress)?;
+            return Ok(Answer { precision: "doubleAfterSingle", ..answer });
+        }
+        self.factored(route, task, Precision::Double, progress)
+    }
+
+    fn factored(
+        &mut self,
+        route: Route,
+        task: &Task<'_>,
+        precision: Precision,
+        progress: Progress<'_>,
+    ) -> Result<Answer, SolveError> {
+        // One factor at a time: each can take most of the memory. An error leaves the analysis, which stays valid.
+        if route == Route::Cholesky {
+            self.complex = None;
+            let real = match &mut self.real {
+                Some(real) => real,
+                none => {
+                    progress(Phase::Analysis, 0.0);
+                    none.insert(RealRoute::new(task)?)
+                }
+            };
+            real.solve(task, precision, progress)
+        } else {
+            self.real = None;
+            let complex = match &mut self.complex {
+                Some(complex) => complex,
+                none => {
+                    progress(Phase::Analysis, 0.0);
+                    none.insert(ComplexRoute::new(task)?)
+                }
+            };
+            complex.solve(task, precision, route == Route::ComplexCholesky, progress)
+        }
+    }
+}
+
+/// The name of a precision in reports.
+pub(super) fn name(precision: Precision) -> &'static str {
+    if precision == Precision::Single { "single" } else { "double" }
+}
