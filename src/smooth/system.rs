@@ -8,7 +8,8 @@ use crate::error::{Result, SolveError};
 use crate::mesh::{LinkKind, TriMesh};
 use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
 use crate::solve::{
-    CgOptions, CholeskyAnalysis, CholeskyFactor, conjugate_gradient, gram, norm, product, submatrix, transposed_product,
+    CgOptions, CholeskyAnalysis, CholeskyFactor, Jacobi, conjugate_gradient, gram, norm, product, submatrix,
+    transposed_product,
 };
 
 /// A correction below this fraction of the solution ends the refinement: where refinement contracts at all, the error
@@ -107,7 +108,7 @@ impl TikhonovSystem {
         let epsilon = options.epsilon / scale;
         let heaviest = (0..self.active.len()).map(|i| self.mass().diagonal(i)).fold(0.0, f64::max);
         if !self.active.is_empty() && epsilon * heaviest < SMALLEST_WEIGHT {
-            return Err(SolveError::NotPositiveDefinite {}.into());
+            return Err(SolveError::NotPositiveDefinite { column: 0 }.into());
         }
         let (solutions, route, factor_nonzeros) = match solver {
             _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
@@ -204,17 +205,18 @@ impl TikhonovSystem {
         for (i, d) in diagonal.iter_mut().enumerate() {
             *d += epsilon * self.mass().diagonal(i);
         }
-        let apply = |x: &[f64]| {
+        let mut apply = |x: &[f64]| {
             let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
             self.mass().times(x).iter().zip(smooth).map(|(b, l)| epsilon * b + l / scale).collect()
         };
         let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
+        let jacobi = Jacobi::new(&diagonal)?;
         self.refine(fields, epsilon, scale, &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let n = self.active.len();
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
             for ((b, x), iterations) in columns.zip(iterations) {
-                *iterations += conjugate_gradient(apply, &diagonal, b, x, &options)?.iterations;
+                *iterations += conjugate_gradient(&mut apply, &jacobi, b, x, &options)?.iterations;
             }
             Ok(solutions)
         })

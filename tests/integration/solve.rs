@@ -231,7 +231,7 @@ fn refactoring_equals_a_new_factor() {
     // After a matrix that cannot be factorised it takes the next one.
     let mut indefinite = first.clone();
     indefinite.values_mut().iter_mut().for_each(|v| *v = -*v);
-    assert_eq!(factor.refactor(indefinite.values()), Err(SolveError::NotPositiveDefinite {}));
+    assert_eq!(factor.refactor(indefinite.values()), Err(SolveError::NotPositiveDefinite { column: 0 }));
     factor.refactor(first.values()).unwrap();
     assert_eq!(factor.solve(&b).unwrap(), original);
     let x = &original[..50];
@@ -268,7 +268,7 @@ fn the_direct_solver_refuses_by_name() {
     }
     let mut values = matrix.values().to_vec();
     values.iter_mut().for_each(|v| *v = 0.0);
-    assert_eq!(analysis.factor(&values).map(|_| ()), Err(SolveError::NotPositiveDefinite {}));
+    assert_eq!(analysis.factor(&values).map(|_| ()), Err(SolveError::NotPositiveDefinite { column: 0 }));
     assert!(matches!(Permutation::new(vec![0, 2, 2]), Err(SolveError::DimensionMismatch { .. })));
     assert!(matches!(Permutation::new(vec![0, 3, 1]), Err(SolveError::DimensionMismatch { .. })));
     let short = Permutation::new(vec![1, 0]).unwrap();
@@ -308,7 +308,7 @@ fn conjugate_gradients_refuse_by_name() {
     let mut x = [0.0; 2];
     let indefinite = |v: &[f64]| vec![v[0], -v[1]];
     let found = conjugate_gradient(indefinite, &[1.0; 2], &[0.0, 1.0], &mut x, &CgOptions::default());
-    assert_eq!(found, Err(SolveError::NotPositiveDefinite {}));
+    assert_eq!(found, Err(SolveError::NotPositiveDefinite { column: 0 }));
 }
 
 #[test]
