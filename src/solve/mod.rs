@@ -3,6 +3,7 @@
 mod aggregation;
 mod cg;
 mod cholesky;
+mod elimination;
 mod matrix;
 mod multigrid;
 mod ordering;

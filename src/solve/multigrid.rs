@@ -3,6 +3,9 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::aggregation::prolongation;
+use super::cg::descend;
+use super::elimination::Elimination;
+use super::matrix::norm;
 use super::preconditioner::Preconditioner;
 use super::rows::{Rows, SymmetricRows};
 use crate::error::SolveError;
@@ -18,7 +21,7 @@ const ROUNDING: f64 = 1e-14;
 /// proportional to the entries of the matrix, and the iterations of conjugate gradients hardly grow with its size.
 ///
 /// # Definition
-/// Levels: aggregates of strongly coupled unknowns, prolongation from their indicators smoothed by one Jacobi step, coarse
+/// Unknowns at the obtuse corners of needle triangles are eliminated first, exactly. Levels: aggregates of strongly coupled unknowns, prolongation from their indicators smoothed by one Jacobi step, coarse
 /// matrix PᵀAP. Smoother: Gauss–Seidel, forward before and backward after the coarse correction \[Adams03\]. On the
 /// coarsest level: dense Cholesky.
 ///
@@ -27,6 +30,8 @@ const ROUNDING: f64 = 1e-14;
 /// for discrete Laplacians, with rows and columns removed or a diagonal added, whose smooth errors are near constants.
 #[derive(Debug, Clone)]
 pub struct Multigrid {
+    elimination: Elimination,
+    size: usize,
     levels: Vec<Level>,
     coarsest: DenseCholesky,
 }
@@ -52,29 +57,10 @@ impl Multigrid {
     }
 
     pub(super) fn from_rows(matrix: SymmetricRows) -> Result<Self, SolveError> {
-        let mut levels: Vec<Level> = Vec::new();
-        let mut matrix = matrix;
-        while matrix.size() > COARSEST {
-            let prolongation = prolongation(&matrix);
-            if prolongation.width as f64 > STALLED * matrix.size() as f64 {
-                break;
-            }
-            let coarse =
-                galerkin(&matrix, &prolongation).map_err(|error| name_unknown(error, &levels, &prolongation))?;
-            levels.push(Level::new(core::mem::replace(&mut matrix, coarse), prolongation));
-        }
-        if matrix.size() > COARSEST {
-            // Not coarsened any further: smoothed.
-            let nothing = Rows { offsets: vec![0; matrix.size() + 1], ..Rows::default() };
-            levels.push(Level::new(matrix, nothing));
-            return Ok(Self { levels, coarsest: DenseCholesky::default() });
-        }
-        let coarsest = DenseCholesky::new(&matrix).map_err(|error| name_unknown(error, &levels, &Rows::default()))?;
-        if levels.is_empty() {
-            // The product with the matrix is asked for as well.
-            levels.push(Level::new(matrix, Rows::default()));
-        }
-        Ok(Self { levels, coarsest })
+        let size = matrix.size();
+        let (elimination, matrix) = Elimination::new(matrix)?;
+        let (levels, coarsest) = hierarchy(matrix).map_err(|error| elimination.name_unknown(error))?;
+        Ok(Self { elimination, size, levels, coarsest })
     }
 
     /// Number of levels, the finest and the coarsest included.
@@ -91,8 +77,17 @@ impl Multigrid {
         all / self.levels.first().map_or(1.0, |level| entries(level).max(1.0))
     }
 
-    /// The product with the matrix that this was made for.
-    pub(super) fn product(&self, x: &[f64]) -> Vec<f64> {
+    /// x with A x = r to a relative residual of `tolerance`, of the system without what is eliminated.
+    pub(super) fn solve(&self, mut r: Vec<f64>, tolerance: f64, most: usize) -> Result<Vec<f64>, SolveError> {
+        let mut residual = self.elimination.forward(&mut r);
+        let mut x = vec![0.0; residual.len()];
+        let target = tolerance * norm(&residual);
+        descend(&mut |x| self.product(x), &Reduced(self), &mut residual, &mut x, target, most)?;
+        self.elimination.backward(&x, &mut r);
+        Ok(r)
+    }
+
+    fn product(&self, x: &[f64]) -> Vec<f64> {
         self.levels.first().map_or_else(Vec::new, |level| level.matrix.product(x))
     }
 
@@ -112,11 +107,27 @@ impl Multigrid {
 
 impl Preconditioner for Multigrid {
     fn size(&self) -> usize {
-        self.levels.first().map_or(0, |level| level.matrix.size())
+        self.size
     }
 
     fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
-        Ok(self.cycle(0, r))
+        let mut z = r.to_vec();
+        let reduced = self.elimination.forward(&mut z);
+        self.elimination.backward(&self.cycle(0, &reduced), &mut z);
+        Ok(z)
+    }
+}
+
+/// The cycle on the unknowns that are not eliminated.
+struct Reduced<'a>(&'a Multigrid);
+
+impl Preconditioner for Reduced<'_> {
+    fn size(&self) -> usize {
+        self.0.elimination.kept.len()
+    }
+
+    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+        Ok(self.0.cycle(0, r))
     }
 }
 
@@ -159,6 +170,31 @@ impl Level {
             x[i] += (r[i] - self.matrix.rows.gather(self.matrix.rows.range(i), x)) * self.inverse[i];
         }
     }
+}
+
+/// The levels from the finest on.
+fn hierarchy(mut matrix: SymmetricRows) -> Result<(Vec<Level>, DenseCholesky), SolveError> {
+    let mut levels: Vec<Level> = Vec::new();
+    while matrix.size() > COARSEST {
+        let prolongation = prolongation(&matrix);
+        if prolongation.width as f64 > STALLED * matrix.size() as f64 {
+            break;
+        }
+        let coarse = galerkin(&matrix, &prolongation).map_err(|error| name_unknown(error, &levels, &prolongation))?;
+        levels.push(Level::new(core::mem::replace(&mut matrix, coarse), prolongation));
+    }
+    if matrix.size() > COARSEST {
+        // Not coarsened any further: smoothed.
+        let nothing = Rows { offsets: vec![0; matrix.size() + 1], ..Rows::default() };
+        levels.push(Level::new(matrix, nothing));
+        return Ok((levels, DenseCholesky::default()));
+    }
+    let coarsest = DenseCholesky::new(&matrix).map_err(|error| name_unknown(error, &levels, &Rows::default()))?;
+    if levels.is_empty() {
+        // The product with the matrix is asked for as well.
+        levels.push(Level::new(matrix, Rows::default()));
+    }
+    Ok((levels, coarsest))
 }
 
 /// PᵀAP, its columns sorted.

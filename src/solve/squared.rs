@@ -2,8 +2,6 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::cg::descend;
-use super::matrix::norm;
 use super::multigrid::Multigrid;
 use super::preconditioner::Preconditioner;
 use super::rows::SymmetricRows;
@@ -44,14 +42,6 @@ impl SquaredSum {
         let multigrid = Multigrid::from_rows(SymmetricRows::shifted(matrix, diagonal)?)?;
         Ok(Self { multigrid, tolerance })
     }
-
-    /// (L + D)⁻¹ r.
-    fn solve(&self, mut r: Vec<f64>) -> Result<Vec<f64>, SolveError> {
-        let mut x = vec![0.0; r.len()];
-        let target = self.tolerance * norm(&r);
-        descend(&mut |x| self.multigrid.product(x), &self.multigrid, &mut r, &mut x, target, MOST_INNER)?;
-        Ok(x)
-    }
 }
 
 impl Preconditioner for SquaredSum {
@@ -60,6 +50,7 @@ impl Preconditioner for SquaredSum {
     }
 
     fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
-        self.solve(self.solve(r.to_vec())?)
+        let half = self.multigrid.solve(r.to_vec(), self.tolerance, MOST_INNER)?;
+        self.multigrid.solve(half, self.tolerance, MOST_INNER)
     }
 }
