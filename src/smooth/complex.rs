@@ -61,9 +61,7 @@ fn shift(task: &Task<'_>, exact: bool) -> Vec<f64> {
     match task.problem.mass {
         Mass::Identity => vec![root; n],
         Mass::Diagonal(masses) if exact => masses.iter().map(|m| root * m).collect(),
-        Mass::Diagonal(masses) => masses.iter().map(|m| root * m.sqrt()).collect(),
-        // The rows of the Galerkin mass matrix sum to the lumped masses.
-        mass @ Mass::Matrix(_) => mass.times(&vec![1.0; n]).iter().map(|m| root * m.sqrt()).collect(),
+        _ => iterative::shift(task),
     }
 }
 

@@ -1,15 +1,21 @@
 //! Smoothing: the systems of \[Patane09, section 4\] set up, solved and reported.
 
+mod complex;
+mod factors;
+mod iterative;
+mod real;
+mod refine;
 mod report;
+mod routes;
 mod system;
 mod tikhonov;
 
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
-pub use tikhonov::{Metric, TikhonovOptions};
+pub use tikhonov::{Metric, TikhonovOptions, epsilon_for_wavelength};
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::error::Result;
+use crate::error::{OptionError, Result};
 use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
 use system::TikhonovSystem;
@@ -17,13 +23,36 @@ use system::TikhonovSystem;
 /// Which solver a [`Smoother`] uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SolverChoice {
-    /// The fastest route that is exact for the system at hand; today always Cholesky. The default.
+    /// The fastest route that is exact for the system at hand, and leaner ones where memory is short. The default.
     #[default]
     Auto,
-    /// Sparse Cholesky with iterative refinement.
+    /// Sparse Cholesky with iterative refinement, complex where that is exact (see `SolverReport::route`).
     Cholesky,
-    /// Conjugate gradients on the system in factored form: little memory, many iterations for small ε.
+    /// Conjugate gradients on the system in factored form, preconditioned by multigrid where L is symmetric: little memory.
     ConjugateGradient,
+}
+
+/// The operator whose square is the smoothness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Operator {
+    /// LᵀL, as in \[Patane09\]: what ε does depends on how fine the mesh is. The default.
+    #[default]
+    Paper,
+    /// L M⁻¹ L beside εM, with the cotangent Laplacian L and the lumped masses M in the mesh's own units: finite elements
+    /// for the Laplace–Beltrami operator, so that what ε does depends on the surface alone. Its eigenfunctions are damped
+    /// by ε/(λ² + ε).
+    Fem,
+}
+
+/// The precision of factors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double. The default.
+    #[default]
+    Double,
+    /// Single, refined to double accuracy: half the memory, and faster where the system is well conditioned. Where it is
+    /// not, the factor is computed in double precision after all.
+    Single,
 }
 
 /// What a [`Smoother`] is made with.
@@ -31,8 +60,12 @@ pub enum SolverChoice {
 pub struct SmootherOptions {
     /// The weights of L. Default cotangent.
     pub weights: LaplacianWeights,
+    /// The operator. Default the paper's.
+    pub operator: Operator,
     /// The solver. Default automatic.
     pub solver: SolverChoice,
+    /// The precision of factors; conjugate gradients without a factor are always in double. Default double.
+    pub precision: Precision,
 }
 
 /// A step of the work, for progress displays.
@@ -93,8 +126,13 @@ impl Smoother {
     /// Assembles the Laplacian. The mesh is shared, not copied.
     ///
     /// # Errors
-    /// `ZeroWeightSum` for normalised weights.
+    /// `ZeroWeightSum` for normalised weights; `InapplicableOption` for the finite-element operator with weights other than
+    /// cotangent, for which it means nothing.
     pub fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
+        if options.operator == Operator::Fem && options.weights != LaplacianWeights::Cotangent {
+            let reason = "the finite-element operator has cotangent weights".to_owned();
+            return Err(OptionError::InapplicableOption { option: "weights".to_owned(), reason }.into());
+        }
         let laplacian = operators::laplacian(mesh, options.weights)?;
         Ok(Self { mesh: mesh.clone(), options, laplacian, tikhonov: None })
     }

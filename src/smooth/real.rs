@@ -70,4 +70,3 @@ fn values(gram: &[f64], pattern: &SparsityPattern, problem: &Problem<'_>) -> Vec
     }
     values
 }
-}

@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::Smoother;
+use super::{Operator, Smoother};
 use super::system::{Solution, Solved};
 use super::tikhonov::{Channel, Metric, TikhonovOptions};
 use crate::error::{FieldError, Result};
@@ -25,7 +25,7 @@ pub struct Smoothed {
 pub struct SmoothReport {
     /// Name of the method.
     pub method: &'static str,
-    /// The equation of \[Patane09\] solved.
+    /// The equation of \[Patane09\] solved, `"fem"` for the finite-element operator.
     pub equation: &'static str,
     /// The trade-off used.
     pub epsilon: Option<f64>,
@@ -61,8 +61,12 @@ pub struct SmoothReport {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SolverReport {
-    /// `"cholesky"`, `"cg"`, or `"none"` where there was nothing to solve.
+    /// `"complexCholesky"` or `"cholesky"`: a factor, complex on the pattern of L or real on that of LᵀL;
+    /// `"cgComplexCholesky"`: conjugate gradients preconditioned by the complex factor; `"cgMultigrid"`, `"cgJacobi"`:
+    /// without a factor; `"none"` where there was nothing to solve.
     pub route: &'static str,
+    /// `"double"`, `"single"`, or `"doubleAfterSingle"` where single precision was asked for and was not enough.
+    pub precision: &'static str,
     /// Size of the system.
     pub unknowns: usize,
     /// Entries of the factor.
@@ -128,7 +132,11 @@ pub(super) fn tikhonov(
     };
     Ok(SmoothReport {
         method: "tikhonov",
-        equation: if options.metric == Metric::Identity { "(3)" } else { "(5)" },
+        equation: match (smoother.options.operator, options.metric) {
+            (Operator::Fem, _) => "fem",
+            (Operator::Paper, Metric::Identity) => "(3)",
+            (Operator::Paper, _) => "(5)",
+        },
         epsilon: Some(options.epsilon),
         constraint_count: 0,
         before: counts(&channel.values)?,
@@ -144,6 +152,7 @@ pub(super) fn tikhonov(
         perturbation_factor: None,
         solver: SolverReport {
             route: solved.route,
+            precision: solved.precision,
             unknowns: solved.unknowns,
             factor_nonzeros: solved.factor_nonzeros,
             relative_residual: solution.relative_residual,

@@ -1,8 +1,10 @@
 //! Tikhonov smoothing, eqs. (3) and (5) of \[Patane09\].
 
+use core::f64::consts::TAU;
+
 use super::report::{self, Smoothed};
 use super::system::TikhonovSystem;
-use super::{Phase, Progress, Smoother};
+use super::{Operator, Phase, Progress, Smoother};
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::operators::MassScale;
@@ -24,7 +26,7 @@ pub enum Metric {
 pub struct TikhonovOptions {
     /// The trade-off: large keeps f, small smooths. Positive and finite. Default 0.05.
     pub epsilon: f64,
-    /// The metric of ‖x − f‖. Default mass.
+    /// The metric of ‖x − f‖; [`Operator::Fem`] has its own, the lumped mass in the mesh's units. Default mass.
     pub metric: Metric,
     /// Scale of the mass matrix; means nothing for the identity. Default mean one.
     pub mass_scale: MassScale,
@@ -38,6 +40,21 @@ impl Default for TikhonovOptions {
     }
 }
 
+/// The ε for which [`Operator::Fem`] halves the amplitude of waves of this length, in the units of the mesh: (2π/ℓ)⁴. Shorter
+/// waves are damped more. Sensible between the mean length of the edges and the diameter of the mesh.
+///
+/// # Errors
+/// `InvalidOption` where the length is not positive and finite, or so extreme that ε is not.
+pub fn epsilon_for_wavelength(wavelength: f64) -> Result<f64, OptionError> {
+    let square = (TAU / wavelength) * (TAU / wavelength);
+    let epsilon = square * square;
+    if wavelength > 0.0 && epsilon.is_finite() && epsilon > 0.0 {
+        return Ok(epsilon);
+    }
+    let expected = "a positive finite length in the units of the mesh".to_owned();
+    Err(OptionError::InvalidOption { option: "cutoffWavelength".to_owned(), expected })
+}
+
 pub(super) fn run(
     smoother: &mut Smoother,
     values: &[f64],
@@ -48,13 +65,24 @@ pub(super) fn run(
         let expected = "a positive finite number".to_owned();
         return Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected }.into());
     }
+    let defaults = TikhonovOptions::default();
+    if smoother.options.operator == Operator::Fem {
+        for (option, differs) in
+            [("metric", options.metric != defaults.metric), ("massScale", options.mass_scale != defaults.mass_scale)]
+        {
+            if differs {
+                let reason = "the finite-element operator has its own mass matrix".to_owned();
+                return Err(OptionError::InapplicableOption { option: option.to_owned(), reason }.into());
+            }
+        }
+    }
     let channels = split_channels(smoother, values, options.channels)?;
     let mut system = match smoother.tikhonov.take() {
         Some(system) => system,
-        None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian)?,
+        None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian, smoother.options.operator)?,
     };
     let fields: Vec<Vec<f64>> = channels.iter().map(|channel| channel.normalized.clone()).collect();
-    let solved = system.solve(&smoother.mesh, &fields, options, smoother.options.solver, progress);
+    let solved = system.solve(&smoother.mesh, &fields, options, &smoother.options, progress);
     // Kept after an error too: the analysis stays valid.
     smoother.tikhonov = Some(system);
     let solved = solved?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::multifrontal::{Workspace, reserve, storage};
-use super::ordering::{Permutation, minimum_degree};
+use super::ordering::{Permutation, nested_dissection};
 use super::scalar::{Scalar, Unit};
 use super::symbolic::{FactorSize, Symbolic};
 use super::triangular::{solve_block, solve_one};
@@ -24,13 +24,27 @@ struct Analysis {
 }
 
 impl CholeskyAnalysis {
-    /// Orders the unknowns by [`minimum_degree`] and analyses the pattern of a symmetric matrix, both triangles stored.
+    /// Orders the unknowns by [`nested_dissection`] and analyses the pattern of a symmetric matrix, both triangles stored.
     ///
     /// # Errors
     /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
     pub fn new(pattern: SparsityPattern) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
-        let permutation = Permutation::new(minimum_degree(&pattern))?;
+        let permutation = Permutation::of_valid(nested_dissection(&pattern, None));
+        Ok(Self::analyze(pattern, &permutation))
+    }
+
+    /// As [`CholeskyAnalysis::new`], for unknowns that are points: three coordinates each, which help the ordering.
+    ///
+    /// # Errors
+    /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where there are not three coordinates for each unknown.
+    pub fn with_coordinates(pattern: SparsityPattern, coordinates: &[f64]) -> Result<Self, SolveError> {
+        check_symmetric(&pattern)?;
+        let (expected, actual) = (3 * pattern.major_dim(), coordinates.len());
+        if expected != actual {
+            return Err(SolveError::DimensionMismatch { expected, actual });
+        }
+        let permutation = Permutation::of_valid(nested_dissection(&pattern, Some(coordinates)));
         Ok(Self::analyze(pattern, &permutation))
     }
 
@@ -94,7 +108,7 @@ impl CholeskyAnalysis {
         let workspace = Workspace::new(&self.shared.symbolic, stack).map_err(out_of_memory)?;
         // Vectors that will be needed beside the factor must find room too.
         drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).map_err(out_of_memory)?);
-        let mut factor = CholeskyFactor { analysis: self.clone(), entries, workspace, lost: None };
+        let mut factor = CholeskyFactor { analysis: self.clone(), entries, workspace, scale: 1.0, lost: None };
         factor.compute(values)?;
         Ok(factor)
     }
@@ -120,6 +134,8 @@ pub struct CholeskyFactor<T: Scalar> {
     analysis: CholeskyAnalysis,
     entries: Vec<T::Unit>,
     workspace: Workspace<T::Unit>,
+    /// The matrix was multiplied by this, to be within the range of single precision.
+    scale: f64,
     /// The column at which the factorisation failed.
     lost: Option<usize>,
 }
@@ -137,7 +153,8 @@ impl<T: Scalar> CholeskyFactor<T> {
 
     fn compute(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
         let Analysis { pattern, symbolic } = &*self.analysis.shared;
-        let outcome = self.workspace.factorize(symbolic, pattern, values, &mut self.entries);
+        [self.scale, _] = scales::<T>(values);
+        let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.entries);
         self.lost = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
         self.lost.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
     }
@@ -180,7 +197,7 @@ impl<T: Scalar> CholeskyFactor<T> {
             new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
         solve_one(symbolic, &self.entries, &mut permuted);
         for (value, &old) in permuted.iter().zip(new_to_old) {
-            x[old as usize] = T::times(value.wide(), grow);
+            x[old as usize] = T::times(value.wide(), grow * self.scale);
         }
     }
 
@@ -199,7 +216,7 @@ impl<T: Scalar> CholeskyFactor<T> {
         for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
             let [_, grow] = scales::<T>(b);
             for (unit, &old) in permuted.iter().zip(new_to_old) {
-                x[old as usize] = T::times(unit.lane(lane).wide(), grow);
+                x[old as usize] = T::times(unit.lane(lane).wide(), grow * self.scale);
             }
         }
     }
@@ -211,7 +228,7 @@ impl<T: Scalar> CholeskyFactor<T> {
     }
 }
 
-/// What brings a right-hand side to about 1 and back: residuals are far below the range of single precision.
+/// What brings numbers to about 1 and back: single precision has a small range.
 fn scales<T: Scalar>(b: &[T::Wide]) -> [f64; 2] {
     let largest = b.iter().fold(0.0, |largest: f64, &value| largest.max(T::magnitude(value)));
     if T::SINGLE && largest >= f64::MIN_POSITIVE { [largest.recip(), largest] } else { [1.0, 1.0] }

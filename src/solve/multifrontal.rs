@@ -67,13 +67,14 @@ impl<U: Unit> Workspace<U> {
         Ok(workspace)
     }
 
-    /// Computes the factor of the matrix with these values into `factor`, which has the capacity for it. The error is the
+    /// Computes the factor of the matrix with these values, times `scale`, into `factor`, which has the capacity for it. The error is the
     /// place of a column whose pivot was lost.
     pub(super) fn factorize(
         &mut self,
         symbolic: &Symbolic,
         pattern: &SparsityPattern,
         values: &[<U::Element as Scalar>::Wide],
+        scale: f64,
         factor: &mut Vec<U>,
     ) -> Result<(), usize> {
         factor.clear();
@@ -100,7 +101,7 @@ impl<U: Unit> Workspace<U> {
                 Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
             self.diagonal.clear();
             for column in columns.clone() {
-                let entry = assemble_column(&mut front, symbolic, pattern, values, column, &self.places);
+                let entry = assemble_column(&mut front, symbolic, pattern, (values, scale), column, &self.places);
                 self.diagonal.push(entry);
             }
             let [own, others] = sides(&mut waiting, odd);
@@ -152,7 +153,7 @@ fn assemble_column<U: Unit>(
     front: &mut Front<'_, U>,
     symbolic: &Symbolic,
     pattern: &SparsityPattern,
-    values: &[<U::Element as Scalar>::Wide],
+    (values, scale): (&[<U::Element as Scalar>::Wide], f64),
     column: usize,
     places: &[u32],
 ) -> U::Element {
@@ -167,7 +168,7 @@ fn assemble_column<U: Unit>(
         if row < column {
             continue;
         }
-        let value = U::Element::narrow(values[start + k]);
+        let value = U::Element::narrow(U::Element::times(values[start + k], scale));
         if row == column {
             diagonal = value;
         }
