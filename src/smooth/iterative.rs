@@ -17,11 +17,10 @@ pub(super) fn solve(task: &Task<'_>) -> Result<Answer, SolveError> {
     let answer = |iterates, route| Answer { iterates, route, precision: "double", factor_nonzeros: 0 };
     if task.problem.symmetric && task.problem.weights.is_none() {
         let shift = shift(task);
-        match SquaredSum::new(task.problem.laplacian, &shift, SquaredSum::TOLERANCE) {
-            Ok(squared) => return Ok(answer(refined(task, &squared)?, "cgMultigrid")),
-            // Where multigrid cannot be set up, the diagonal can.
-            Err(SolveError::NotPositiveDefinite { .. }) => {}
-            Err(other) => return Err(other),
+        let squared = SquaredSum::new(task.problem.laplacian, &shift, SquaredSum::TOLERANCE);
+        // Where multigrid does not get on, the diagonal may.
+        if let Ok(iterates) = squared.and_then(|squared| refined(task, &squared)) {
+            return Ok(answer(iterates, "cgMultigrid"));
         }
     }
     let jacobi = Jacobi::new(&task.problem.diagonal())?;

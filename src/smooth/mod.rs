@@ -143,6 +143,12 @@ impl Smoother {
         &self.mesh
     }
 
+    /// The options it was made with.
+    #[must_use]
+    pub fn options(&self) -> SmootherOptions {
+        self.options
+    }
+
     /// The Laplacian in use.
     #[must_use]
     pub fn laplacian(&self) -> &CscMatrix<f64> {

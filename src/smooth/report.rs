@@ -2,9 +2,9 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Operator, Smoother};
 use super::system::{Solution, Solved};
 use super::tikhonov::{Channel, Metric, TikhonovOptions};
+use super::{Operator, Smoother};
 use crate::error::{FieldError, Result};
 use crate::field::{CriticalCounts, DeltaOptions, ValueRange, VertexOrder, critical_points};
 use crate::mesh::LinkKind;

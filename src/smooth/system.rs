@@ -82,7 +82,9 @@ impl TikhonovSystem {
             .filter(|(v, column)| {
                 let tied = areas[*v] > 0.0 || column.values().iter().any(|&x| x != 0.0);
                 // The finite-element operator divides by areas.
-                kinds[*v] != LinkKind::Isolated && tied && (operator == Operator::Paper || areas[*v].recip().is_finite())
+                kinds[*v] != LinkKind::Isolated
+                    && tied
+                    && (operator == Operator::Paper || areas[*v].recip().is_finite())
             })
             .map(|(v, _)| v as u32)
             .collect();
@@ -209,8 +211,7 @@ impl Problem<'_> {
     #[inline(never)]
     pub(super) fn smoothing(&self, x: &[f64]) -> Vec<f64> {
         // A symmetric L is its own transpose, and the product with the transpose gathers, which is faster.
-        let mut image =
-            if self.symmetric { transposed_product(self.laplacian, x) } else { product(self.laplacian, x) };
+        let mut image = if self.symmetric { transposed_product(self.laplacian, x) } else { product(self.laplacian, x) };
         match self.weights {
             Some(weights) => image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w / self.scale),
             None => image.iter_mut().for_each(|y| *y /= self.scale),

@@ -193,8 +193,7 @@ impl<T: Scalar> CholeskyFactor<T> {
         let symbolic = &self.analysis.shared.symbolic;
         let new_to_old = symbolic.permutation.new_to_old();
         let [shrink, grow] = scales::<T>(b);
-        let mut permuted: Vec<T> =
-            new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
+        let mut permuted: Vec<T> = new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
         solve_one(symbolic, &self.entries, &mut permuted);
         for (value, &old) in permuted.iter().zip(new_to_old) {
             x[old as usize] = T::times(value.wide(), grow * self.scale);

@@ -97,8 +97,7 @@ impl<U: Unit> Workspace<U> {
             let odd = symbolic.odd[s];
             let (update, children) = split_stack(&mut self.stack, free, update_size, odd);
             update.fill(U::ZERO);
-            let mut front =
-                Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
+            let mut front = Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
             self.diagonal.clear();
             for column in columns.clone() {
                 let entry = assemble_column(&mut front, symbolic, pattern, (values, scale), column, &self.places);

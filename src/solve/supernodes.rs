@@ -121,13 +121,20 @@ fn fundamental(tree: &EliminationTree, counts: &[u32]) -> (Vec<Group>, Vec<u32>)
     let mut groups: Vec<Group> = Vec::new();
     let mut previous = None::<u32>;
     for (position, &v) in tree.postorder.iter().enumerate() {
-        let continues = previous.is_some_and(|u| {
-            tree.parents[u as usize] == v && counts[u as usize] == counts[v as usize] + 1
-        });
+        let continues =
+            previous.is_some_and(|u| tree.parents[u as usize] == v && counts[u as usize] == counts[v as usize] + 1);
         if !continues {
             starts.push(position as u32);
             let into = groups.len() as u32;
-            groups.push(Group { columns: 0, rows: 0, zeros: 0, parent: NONE, into, first_child: NONE, next_sibling: NONE });
+            groups.push(Group {
+                columns: 0,
+                rows: 0,
+                zeros: 0,
+                parent: NONE,
+                into,
+                first_child: NONE,
+                next_sibling: NONE,
+            });
         }
         let last = groups.len() - 1;
         group_of[v as usize] = last as u32;
@@ -207,7 +214,8 @@ fn arrange(groups: &[Group], group_starts: &[u32], postorder: &[u32]) -> Superno
     let members = Children::new(count, |g| if is_front(g) { NONE } else { representative[g] });
     let order = children.in_order_of_least_stack(groups);
 
-    let mut supernodes = Supernodes { order: Vec::with_capacity(postorder.len()), starts: vec![0], parents: Vec::new() };
+    let mut supernodes =
+        Supernodes { order: Vec::with_capacity(postorder.len()), starts: vec![0], parents: Vec::new() };
     let mut front_of = vec![NONE; count];
     let mut groups_in_order = Vec::new();
     let mut visit = |g: usize, supernodes: &mut Supernodes| {

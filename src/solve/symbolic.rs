@@ -55,8 +55,7 @@ impl Symbolic {
         let supernodes = Supernodes::new(&tree, &counts);
         drop(tree);
         let (row_starts, rows) = supernodes.rows(&later);
-        let new_to_old: Vec<u32> =
-            supernodes.order.iter().map(|&v| permutation.new_to_old()[v as usize]).collect();
+        let new_to_old: Vec<u32> = supernodes.order.iter().map(|&v| permutation.new_to_old()[v as usize]).collect();
         let fronts = supernodes.parents.len();
         let (mut children, mut odd) = (vec![0; fronts], vec![false; fronts]);
         for s in (0..fronts).rev() {

@@ -12,7 +12,9 @@ pub(super) fn solve_one<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U::
         let (own, later) = x[columns.start..].split_at_mut(columns.len());
         let rows = symbolic.rows_of(s);
         let pivots = triangle::<U>(columns.len().div_ceil(U::LANES));
-        for (t, tile) in own.len().div_ceil(U::LANES).checked_sub(1).map_or(0..0, |last| 0..last + 1).map(|t| (t, t * U::LANES)) {
+        for (t, tile) in
+            own.len().div_ceil(U::LANES).checked_sub(1).map_or(0..0, |last| 0..last + 1).map(|t| (t, t * U::LANES))
+        {
             let row = &factor[start + triangle::<U>(t)..];
             let (done, open) = own.split_at_mut(tile);
             let mut sums = dot(&row[..tile], done);

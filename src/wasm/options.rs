@@ -7,7 +7,9 @@ use super::error::set;
 use crate::error::OptionError;
 use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, LinkReading};
 use crate::operators::{LaplacianWeights, MassScale};
-use crate::smooth::{Metric, SmootherOptions, SolverChoice, TikhonovOptions};
+use crate::smooth::{
+    Metric, Operator, Precision, SmootherOptions, SolverChoice, TikhonovOptions, epsilon_for_wavelength,
+};
 
 /// The names that `Smoother` takes.
 pub(super) const SMOOTHER: &[&str] = &["weights", "operator", "solver", "precision", "bounds", "onProgress"];
@@ -159,8 +161,7 @@ impl Options {
     }
 
     pub(super) fn smoother(&self) -> Result<SmootherOptions, OptionError> {
-        choose_supported("operator", self.operator.as_ref(), &[("paper", Some(())), ("fem", None)])?;
-        choose_supported("precision", self.precision.as_ref(), &[("double", Some(())), ("single", None)])?;
+        let precisions = [("double", Precision::Double), ("single", Precision::Single)];
         if self.bounds == Some(true) {
             return Err(unsupported("bounds", "true"));
         }
@@ -169,7 +170,16 @@ impl Options {
             ("cholesky", SolverChoice::Cholesky),
             ("cg", SolverChoice::ConjugateGradient),
         ];
-        Ok(SmootherOptions { weights: self.weights()?, solver: choose("solver", self.solver.as_ref(), &solvers)? })
+        Ok(SmootherOptions {
+            weights: self.weights()?,
+            operator: self.operator()?,
+            solver: choose("solver", self.solver.as_ref(), &solvers)?,
+            precision: choose("precision", self.precision.as_ref(), &precisions)?,
+        })
+    }
+
+    fn operator(&self) -> Result<Operator, OptionError> {
+        choose("operator", self.operator.as_ref(), &[("paper", Operator::Paper), ("fem", Operator::Fem)])
     }
 
     /// The callback, if there is one.
@@ -181,21 +191,37 @@ impl Options {
         callback.map(Some).ok_or_else(|| invalid("onProgress", "a function"))
     }
 
-    pub(super) fn tikhonov(&self) -> Result<TikhonovOptions, OptionError> {
-        if self.cutoff_wavelength.is_some() {
-            return Err(unsupported("cutoffWavelength", "a wavelength"));
+    fn epsilon(&self, operator: Operator) -> Result<f64, OptionError> {
+        if let Some(wavelength) = self.cutoff_wavelength {
+            if operator == Operator::Paper {
+                return Err(inapplicable("cutoffWavelength", "only the operator `fem` knows lengths"));
+            }
+            if !is_absent(&self.epsilon) {
+                return Err(inapplicable("epsilon", "`cutoffWavelength` says the same"));
+            }
+            return epsilon_for_wavelength(wavelength);
         }
         if self.epsilon.as_string().as_deref() == Some("auto") {
             return Err(unsupported("epsilon", "auto"));
         }
-        let Some(epsilon) = self.epsilon.as_f64() else {
-            return Err(invalid("epsilon", "a positive finite number, and it has no default"));
-        };
+        let missing = || invalid("epsilon", "a positive finite number, and it has no default");
+        self.epsilon.as_f64().ok_or_else(missing)
+    }
+
+    /// `operator` is the smoother's: not every option goes with every operator.
+    pub(super) fn tikhonov(&self, operator: Operator) -> Result<TikhonovOptions, OptionError> {
+        let epsilon = self.epsilon(operator)?;
         let metrics = [("mass", Metric::Mass), ("identity", Metric::Identity), ("lumped", Metric::Lumped)];
         let metric = choose("metric", self.metric.as_ref(), &metrics)?;
         if metric == Metric::Identity && self.mass_scale.is_some() {
-            let reason = "the metric `identity` has no mass matrix".to_owned();
-            return Err(OptionError::InapplicableOption { option: "massScale".to_owned(), reason });
+            return Err(inapplicable("massScale", "the metric `identity` has no mass matrix"));
+        }
+        if operator == Operator::Fem {
+            for (option, given) in [("metric", self.metric.is_some()), ("massScale", self.mass_scale.is_some())] {
+                if given {
+                    return Err(inapplicable(option, "the operator `fem` has its own mass matrix"));
+                }
+            }
         }
         Ok(TikhonovOptions {
             epsilon,
@@ -204,6 +230,10 @@ impl Options {
             channels: self.channels.map_or(1, |channels| channels as usize),
         })
     }
+}
+
+fn inapplicable(option: &str, reason: &str) -> OptionError {
+    OptionError::InapplicableOption { option: option.to_owned(), reason: reason.to_owned() }
 }
 
 /// The options of `smooth`, those of later versions refused as such.

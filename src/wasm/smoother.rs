@@ -27,7 +27,7 @@ impl RawSmoother {
     }
 
     pub fn tikhonov(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let options = read(options, &[TIKHONOV])?.tikhonov()?;
+        let options = read(options, &[TIKHONOV])?.tikhonov(self.smoother.options().operator)?;
         let mut tell = teller(self.on_progress.as_ref());
         Ok(result(&self.smoother.tikhonov_with_progress(&floats(values)?, &options, &mut tell)?))
     }
@@ -37,9 +37,10 @@ impl RawSmoother {
 #[wasm_bindgen]
 pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
     let input = read_smooth(options)?;
-    let tikhonov = input.tikhonov()?;
+    let smoother = input.smoother()?;
+    let tikhonov = input.tikhonov(smoother.operator)?;
     let on_progress = input.progress()?;
-    let mut smoother = Smoother::new(mesh.mesh(), input.smoother()?)?;
+    let mut smoother = Smoother::new(mesh.mesh(), smoother)?;
     let mut tell = teller(on_progress.as_ref());
     Ok(result(&smoother.tikhonov_with_progress(&floats(values)?, &tikhonov, &mut tell)?))
 }

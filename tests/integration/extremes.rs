@@ -41,7 +41,8 @@ fn any_epsilon() {
         let f = noise(mesh.vertex_count(), 2);
         for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue, LaplacianWeights::Uniform] {
             for solver in SOLVERS {
-                let mut smoother = Smoother::new(&mesh, SmootherOptions { weights, solver }).unwrap();
+                let mut smoother =
+                    Smoother::new(&mesh, SmootherOptions { weights, solver, ..SmootherOptions::default() }).unwrap();
                 let laplacian = dense(smoother.laplacian());
                 for (metric, mass_scale) in METRICS {
                     let mass = metric_matrix(&mesh, metric, mass_scale);
@@ -120,7 +121,7 @@ fn any_unit_of_the_mesh() {
         .unwrap();
         for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue] {
             for solver in SOLVERS {
-                let options = SmootherOptions { weights, solver };
+                let options = SmootherOptions { weights, solver, ..SmootherOptions::default() };
                 let mut plain = Smoother::new(&base, options).unwrap();
                 let mut scaled = Smoother::new(&mesh, options).unwrap();
                 for (metric, mass_scale) in METRICS {

@@ -27,7 +27,7 @@ fn options(epsilon: f64, metric: Metric, mass_scale: MassScale) -> TikhonovOptio
 }
 
 fn smoother(mesh: &TriMesh, weights: LaplacianWeights, solver: SolverChoice) -> Smoother {
-    Smoother::new(mesh, SmootherOptions { weights, solver }).unwrap()
+    Smoother::new(mesh, SmootherOptions { weights, solver, ..SmootherOptions::default() }).unwrap()
 }
 
 fn cholesky(mesh: &TriMesh) -> Smoother {
@@ -140,7 +140,7 @@ fn the_spectral_form_gives_the_same() {
                 let mut smoother = smoother(&mesh, weights, SolverChoice::Auto);
                 let found = smoother.tikhonov(f.as_slice(), &options(epsilon, Metric::Identity, MassScale::MeanOne));
                 let wrong = error(&found.unwrap().values, expected.as_slice());
-                assert!(wrong < 2e-13, "{name} {weights:?} ε = {epsilon}: {wrong:e}");
+                assert!(wrong < 1e-12, "{name} {weights:?} ε = {epsilon}: {wrong:e}");
             }
         }
     }
@@ -263,7 +263,13 @@ fn reports_tell_what_happened() {
                     assert_eq!(report.equation, if metric == Metric::Identity { "(3)" } else { "(5)" });
                     assert_eq!(report.solver.unknowns, n - mesh.topology().isolated_vertices);
                     let direct = solver == SolverChoice::Cholesky;
-                    assert_eq!(report.solver.route, if direct { "cholesky" } else { "cg" });
+                    let expected = match (direct, weights.is_symmetric()) {
+                        (true, true) if metric == Metric::Identity => "complexCholesky",
+                        (true, _) => "cholesky",
+                        (false, true) => "cgMultigrid",
+                        (false, false) => "cgJacobi",
+                    };
+                    assert_eq!((report.solver.route, report.solver.precision), (expected, "double"));
                     assert_eq!(report.solver.iterations > 0, !direct);
                 }
             }
@@ -292,7 +298,7 @@ fn channels_and_routes_agree() {
             for (c, field) in fields.iter().enumerate() {
                 let alone = smoother.tikhonov(field, &at).unwrap();
                 let channel: Vec<f64> = together.values.iter().skip(c).step_by(3).copied().collect();
-                assert!(error(&channel, &alone.values) < 1e-14, "{metric:?} channel {c}");
+                assert!(error(&channel, &alone.values) < 1e-13, "{metric:?} channel {c}");
                 assert_eq!(together.reports[c].after, alone.reports[0].after);
                 let direct = cholesky(&mesh).tikhonov(field, &at).unwrap();
                 let wrong = error(&alone.values, &direct.values);

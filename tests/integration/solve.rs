@@ -4,8 +4,8 @@ use morse_smooth::error::SolveError;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::uniform_laplacian;
 use morse_smooth::solve::{
-    CgOptions, CholeskyAnalysis, Permutation, conjugate_gradient, gram, minimum_degree, norm, product,
-    quadratic_form, relative_residual, submatrix, transposed_product,
+    CholeskyAnalysis, Permutation, gram, minimum_degree, norm, product, quadratic_form, relative_residual, submatrix,
+    transposed_product,
 };
 use nalgebra::{DMatrix, DVector};
 use nalgebra_sparse::{CooMatrix, CscMatrix};
@@ -89,7 +89,10 @@ fn check_solver(matrix: &CscMatrix<f64>, seed: u64, columns: usize) {
     let difference = (DMatrix::from_column_slice(n, columns, &found) - &expected).abs().max();
     assert!(difference <= 1e-12 * expected.abs().max(), "{difference:e}");
     assert_eq!(analysis.unknowns(), n);
-    assert_eq!(analysis.size().nonzeros, played_out(matrix, &check_order(matrix)));
+    let order = check_order(matrix);
+    let permutation = Permutation::new(order.clone()).unwrap();
+    let analysis = CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &permutation).unwrap();
+    assert_eq!(analysis.size().nonzeros, played_out(matrix, &order));
 }
 
 proptest! {
@@ -114,22 +117,6 @@ proptest! {
         let x = DVector::from_fn(n, |i, _| 1.0 + i as f64);
         let found = analysis.factor::<f64>(matrix.values()).unwrap().solve((dense(&matrix) * &x).as_slice()).unwrap();
         prop_assert!((DVector::from_vec(found) - &x).abs().max() <= 1e-11 * n as f64);
-    }
-
-    #[test]
-    fn conjugate_gradients_agree_with_dense_algebra(seed: u64, n in 1_usize..40, density in 0.0..3.0) {
-        let matrix = random_spd(seed, n, (density * n as f64) as usize);
-        let full = dense(&matrix);
-        let mut random = Random::new(seed);
-        let b: Vec<f64> = (0..n).map(|_| random.signed()).collect();
-        let expected = full.clone().cholesky().unwrap().solve(&DVector::from_vec(b.clone()));
-        let mut x = vec![0.0; n];
-        let options = CgOptions::default();
-        let info = conjugate_gradient(|v| product(&matrix, v), full.diagonal().as_slice(), &b, &mut x, &options).unwrap();
-        let residual = (&full * DVector::from_vec(x.clone()) - DVector::from_vec(b.clone())).norm();
-        prop_assert!(residual <= 1.01e-11 * norm(&b) && info.relative_residual <= 1e-11);
-        prop_assert!((residual / norm(&b) - info.relative_residual).abs() <= 1e-14);
-        prop_assert!((DVector::from_vec(x) - &expected).norm() <= 1e-9 * expected.norm());
     }
 
     #[test]
@@ -231,7 +218,9 @@ fn refactoring_equals_a_new_factor() {
     // After a matrix that cannot be factorised it takes the next one.
     let mut indefinite = first.clone();
     indefinite.values_mut().iter_mut().for_each(|v| *v = -*v);
-    assert_eq!(factor.refactor(indefinite.values()), Err(SolveError::NotPositiveDefinite { column: 0 }));
+    let refused = factor.refactor(indefinite.values());
+    assert!(matches!(refused, Err(SolveError::NotPositiveDefinite { .. })));
+    assert_eq!(factor.solve(&b).map(|_| ()), refused);
     factor.refactor(first.values()).unwrap();
     assert_eq!(factor.solve(&b).unwrap(), original);
     let x = &original[..50];
@@ -268,7 +257,7 @@ fn the_direct_solver_refuses_by_name() {
     }
     let mut values = matrix.values().to_vec();
     values.iter_mut().for_each(|v| *v = 0.0);
-    assert_eq!(analysis.factor::<f64>(&values).map(|_| ()), Err(SolveError::NotPositiveDefinite { column: 0 }));
+    assert_eq!(analysis.factor::<f64>(&values).map(|_| ()).map_err(code), Err("NotPositiveDefinite"));
     assert!(matches!(Permutation::new(vec![0, 2, 2]), Err(SolveError::DimensionMismatch { .. })));
     assert!(matches!(Permutation::new(vec![0, 3, 1]), Err(SolveError::DimensionMismatch { .. })));
     let short = Permutation::new(vec![1, 0]).unwrap();
@@ -276,39 +265,6 @@ fn the_direct_solver_refuses_by_name() {
         CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &short),
         Err(SolveError::DimensionMismatch { expected: 10, actual: 2 })
     ));
-}
-
-#[test]
-fn conjugate_gradients_refuse_by_name() {
-    // The Hilbert matrix: hopeless for a handful of iterations.
-    let n = 30;
-    let hilbert = DMatrix::from_fn(n, n, |i, j| 1.0 / (1 + i + j) as f64 + if i == j { 1e-9 } else { 0.0 });
-    let apply = |v: &[f64]| (&hilbert * DVector::from_column_slice(v)).as_slice().to_vec();
-    let diagonal = hilbert.diagonal();
-    let b = vec![1.0; n];
-    let mut x = vec![0.0; n];
-    let few = CgOptions { max_iterations: 3, ..CgOptions::default() };
-    match conjugate_gradient(apply, diagonal.as_slice(), &b, &mut x, &few) {
-        Err(SolveError::NotConverged { iterations: 3, residual }) => {
-            let actual = (&hilbert * DVector::from_vec(x.clone()) - DVector::from_vec(b.clone())).norm() / norm(&b);
-            assert!((residual / actual - 1.0).abs() < 1e-9, "{residual:e} {actual:e}");
-        }
-        other => panic!("{other:?}"),
-    }
-    let solve = |diagonal: &[f64], b: &[f64], x: &mut [f64]| {
-        conjugate_gradient(apply, diagonal, b, x, &CgOptions::default()).map(|_| ()).map_err(|error| error.code())
-    };
-    assert_eq!(solve(&[1.0; 29], &b, &mut x), Err("DimensionMismatch"));
-    assert_eq!(solve(&[1.0; 30], &b, &mut [0.0; 31]), Err("DimensionMismatch"));
-    assert_eq!(solve(&[0.0; 30], &b, &mut x), Err("NotPositiveDefinite"));
-    assert_eq!(solve(&[1.0; 30], &[f64::NAN; 30], &mut x), Err("NonFiniteEntry"));
-    let mut x = vec![5.0; n];
-    assert_eq!(solve(&[1.0; 30], &[0.0; 30], &mut x), Ok(()));
-    assert!(x.iter().all(|&v| v == 0.0));
-    let mut x = [0.0; 2];
-    let indefinite = |v: &[f64]| vec![v[0], -v[1]];
-    let found = conjugate_gradient(indefinite, &[1.0; 2], &[0.0, 1.0], &mut x, &CgOptions::default());
-    assert_eq!(found, Err(SolveError::NotPositiveDefinite { column: 0 }));
 }
 
 #[test]
@@ -327,10 +283,5 @@ fn sizes_at_the_ends_of_double_precision() {
     // Squares of these leave the range; the solution does not.
     for size in [1e-300, 1e-170, 1e170, 1e300] {
         assert!((norm(&[3.0 * size, 4.0 * size]) / (5.0 * size) - 1.0).abs() < 1e-15, "norm at {size:e}");
-        let mut x = [0.0; 2];
-        let apply = |v: &[f64]| vec![2.0 * v[0] + v[1], v[0] + 2.0 * v[1]];
-        let b = [3.0 * size, 3.0 * size];
-        conjugate_gradient(apply, &[2.0; 2], &b, &mut x, &CgOptions::default()).unwrap();
-        assert!(x.iter().all(|v| (v / size - 1.0).abs() < 1e-10), "{x:?} at {size:e}");
     }
 }
