@@ -4,6 +4,7 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 use super::bisection::bisect;
+use super::flow::Flow;
 use super::graph::{Graph, Groups};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
@@ -11,13 +12,13 @@ use super::edge_cut::EdgeRefiner;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 
 /// Parts up to this size are ordered by minimum degree.
-fn leaf() -> usize { super::tune("LEAF", 300.) as usize }
+fn leaf() -> usize { super::tune("LEAF", 120.) as usize }
 /// Unknowns in a cluster.
 fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
 
 /// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
 #[must_use]
-pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
+#[inline(never)] pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
     let _ = coordinates;
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
@@ -31,6 +32,7 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
     let mut dissection = Dissection {
         labels: vec![NONE; n],
         refiner: Refiner::new(n),
+        flow: Flow::new(n),
         coarse_refiner: EdgeRefiner::new(count),
         leaf: LeafOrder::new(n),
         place: vec![NONE; count],
@@ -65,6 +67,7 @@ struct Dissection {
     cluster_of: Vec<u32>,
     labels: Vec<u32>,
     refiner: Refiner,
+    flow: Flow,
     coarse_refiner: EdgeRefiner,
     leaf: LeafOrder,
     place: Vec<u32>,
@@ -75,7 +78,7 @@ struct Dissection {
 }
 
 impl Dissection {
-    fn split(&mut self, order: &mut [u32], part: Part) {
+    #[inline(never)] fn split(&mut self, order: &mut [u32], part: Part) {
         let range = part.begin..part.end;
         let members = &mut order[range];
         if members.len() <= leaf() {
@@ -126,7 +129,13 @@ impl Dissection {
         sides.clear();
         let before = cut.weights;
         self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP",4.) as usize, 1);
-        if super::tune("SHOW", 1e9) < members.len() as f64 { std::eprintln!("{} {} before {:?} after {:?} rel {:.3}", members.len(), part.ids.len(), before, cut.weights, cut.weights[2] as f64 / (members.len() as f64).sqrt()); }
+        let mid = cut.weights;
+        if members.len() as f64 > super::tune("FLOWM", 3000.) {
+            self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, super::tune("DEPTH", 3.) as usize);
+            let fp2 = super::tune("FP2", 0.) as usize;
+            if fp2 > 0 { self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1); }
+        }
+        if super::tune("SHOW", 1e9) < members.len() as f64 { std::eprintln!("{} {} before {:?} mid {:?} after {:?} rel {:.3}", members.len(), part.ids.len(), before, mid, cut.weights, cut.weights[2] as f64 / (members.len() as f64).sqrt()); }
         if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
             self.order_whole(members);
             return;
@@ -136,7 +145,7 @@ impl Dissection {
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+    #[inline(never)] fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
         let groups = Groups::new(group_of, count);

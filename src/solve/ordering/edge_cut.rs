@@ -45,7 +45,7 @@ impl EdgeRefiner {
         }
     }
 
-    pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
+    #[inline(never)] pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
         let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
         let unit = (all / (16 * graph.len() as i64)).max(1);
         for _ in 0..passes {

@@ -3,6 +3,7 @@
 mod bisection;
 mod dissection;
 mod edge_cut;
+mod flow;
 mod graph;
 mod leaf;
 mod minimum_degree;

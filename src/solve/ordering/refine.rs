@@ -60,7 +60,7 @@ impl Refiner {
     }
 
     /// Improves a cut until nothing changes or `passes` are over.
-    pub(super) fn refine(
+    #[inline(never)] pub(super) fn refine(
         &mut self,
         graph: &Graph,
         labels: &mut [u32],
