@@ -6,7 +6,7 @@ use super::refine::{LEFT, RIGHT};
 
 /// Graphs below this size are cut directly.
 fn coarsest_size() -> usize { super::tune("COARSEST", 80.) as usize }
-fn tries() -> usize { super::tune("TRIES", 6.) as usize }
+fn tries() -> usize { super::tune("TRIES", 4.) as usize }
 
 /// Cuts a connected graph in two: the side of every vertex.
 pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
@@ -21,6 +21,7 @@ pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
     }
     best.0
 }
+#[inline(never)]
 fn bisect_once(graph: &Graph, refiner: &mut EdgeRefiner, stride: usize, variant: usize) -> (Vec<u32>, EdgeCut) {
     let total: u32 = graph.weights.iter().sum();
     let most = (total / (coarsest_size() as u32 / 2)).max(2);
@@ -48,6 +49,7 @@ fn bisect_once(graph: &Graph, refiner: &mut EdgeRefiner, stride: usize, variant:
 }
 
 /// The best of several cuts that grow from different vertices.
+#[inline(never)]
 fn first(graph: &Graph, refiner: &mut EdgeRefiner, variant: usize) -> (Vec<u32>, EdgeCut) {
     let n = graph.len();
     let total: i64 = graph.weights.iter().map(|&weight| i64::from(weight)).sum();

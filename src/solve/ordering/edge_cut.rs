@@ -48,29 +48,31 @@ impl EdgeRefiner {
     #[inline(never)] pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
         let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
         let unit = (all / (16 * graph.len() as i64)).max(1);
+        let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
         for _ in 0..passes {
             let before = cut.cost(all as f64);
-            self.run(graph, labels, cut, unit, all as f64);
+            self.run(graph, labels, cut, unit, all as f64, &mut boundary);
             if cut.cost(all as f64) >= before {
                 break;
             }
         }
     }
 
-    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: i64, all: f64) {
+    #[inline(never)]
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: i64, all: f64, boundary: &mut Vec<u32>) {
         self.pass += 1;
         self.log.clear();
-        let mut boundary = Vec::new();
-        for v in 0..graph.len() as u32 {
-            if graph.of(v).iter().any(|&u| labels[u as usize] != labels[v as usize]) {
-                boundary.push(v);
-            }
-        }
+        self.pass += 1;
+        boundary.retain(|&v| {
+            core::mem::replace(&mut self.moved[v as usize], self.pass) != self.pass
+                && graph.of(v).iter().any(|&u| labels[u as usize] != labels[v as usize])
+        });
+        self.pass += 1;
         let count = boundary.len();
         if boundary.is_empty() {
             boundary.push(0);
         }
-        for &v in &boundary {
+        for &v in &*boundary {
             self.enter(graph, labels, v, unit);
         }
         let mut best = cut.cost(all);
@@ -114,7 +116,7 @@ impl EdgeRefiner {
                 stall += 1;
             }
         }
-        for &v in &boundary {
+        for &v in &*boundary {
             for queue in &mut self.queues {
                 if queue.holds(v) {
                     queue.remove(v);

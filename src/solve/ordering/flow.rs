@@ -19,9 +19,10 @@ pub(super) struct Flow {
     next: Vec<u32>,
     is_source: Vec<bool>,
     is_sink: Vec<bool>,
-    /// When the entrance (2 i) or the exit (2 i + 1) of a vertex was last visited.
-    visited: Vec<u32>,
-    phase: u32,
+    /// Steps from the sources to the entrance (2 i) and the exit (2 i + 1) of a vertex.
+    steps: Vec<u32>,
+    queue: Vec<u32>,
+    /// Entrances and exits of a path, each with its place in the list of what follows it.
     stack: Vec<(u32, u32)>,
 }
 
@@ -34,8 +35,8 @@ impl Flow {
             next: Vec::new(),
             is_source: Vec::new(),
             is_sink: Vec::new(),
-            visited: Vec::new(),
-            phase: 0,
+            steps: Vec::new(),
+            queue: Vec::new(),
             stack: Vec::new(),
         }
     }
@@ -69,9 +70,9 @@ impl Flow {
     }
 
     fn label(&self, i: usize) -> u32 {
-        if self.visited[2 * i + 1] == self.phase {
+        if self.steps[2 * i + 1] != NONE {
             LEFT
-        } else if self.visited[2 * i] == self.phase {
+        } else if self.steps[2 * i] != NONE {
             SEPARATOR
         } else {
             RIGHT
@@ -114,83 +115,121 @@ impl Flow {
             list.clear();
             list.resize(n, NONE);
         }
-        self.visited.clear();
-        self.visited.resize(2 * n, 0);
-        self.phase = 0;
     }
 
-    #[inline(never)] fn saturate(&mut self, graph: &Graph) {
-        loop {
-            self.phase += 1;
-            let mut found = false;
+    /// Blocking flows on shortest paths until there is none ([Dinic70]).
+    #[inline(never)]
+    fn saturate(&mut self, graph: &Graph) {
+        while self.measure(graph) {
             for i in 0..self.band.len() {
-                if self.is_source[i] && self.visited[2 * i] != self.phase {
-                    self.visited[2 * i] = self.phase;
-                    if self.previous[i] != SOURCE && self.search(graph, i as u32) {
-                        found = true;
-                    }
+                if self.is_source[i] && self.previous[i] != SOURCE {
+                    self.search(graph, i as u32);
                 }
             }
-            if !found {
-                break;
+        }
+        for i in 0..self.band.len() {
+            if self.is_source[i] && self.steps[2 * i] == NONE {
+                self.steps[2 * i] = 0;
             }
         }
     }
 
-    /// Looks for one more path from a vertex, depth first. The stack holds entrances and exits, each with its next neighbour.
-    fn search(&mut self, graph: &Graph, source: u32) -> bool {
-        self.stack.clear();
-        self.stack.push((2 * source, 0));
-        while let Some(&(state, edge)) = self.stack.last() {
-            let i = (state / 2) as usize;
-            let mut next = NONE;
-            if state % 2 == 0 {
-                // From the entrance: through an unused vertex, or back along the path that uses it.
-                let target = if self.previous[i] == NONE { i as u32 } else { self.previous[i] };
-                if edge == 0 && target != SOURCE {
-                    next = 2 * target + 1;
+    /// What follows an entrance or exit, from the given place of its list on; `NONE` at the end.
+    fn follow(&self, graph: &Graph, state: u32, place: &mut u32) -> u32 {
+        let i = (state / 2) as usize;
+        if state % 2 == 0 {
+            // Through an unused vertex, or back along the path that uses it.
+            *place += 1;
+            let from = if self.previous[i] == NONE { i as u32 } else { self.previous[i] };
+            return if *place > 1 || from == SOURCE { NONE } else { 2 * from + 1 };
+        }
+        // To any neighbour, or, where a path leaves the vertex, to its entrance.
+        let neighbours = graph.of(self.band[i]);
+        while (*place as usize) < neighbours.len() {
+            let slot = self.slots[neighbours[*place as usize] as usize];
+            *place += 1;
+            if slot != NONE && slot != self.next[i] {
+                return 2 * slot;
+            }
+        }
+        *place += 1;
+        if *place as usize > neighbours.len() + 1 || self.previous[i] == NONE { NONE } else { 2 * i as u32 }
+    }
+
+    /// Whether a path can end here.
+    fn ends(&self, state: u32) -> bool {
+        let i = (state / 2) as usize;
+        state % 2 == 1 && self.is_sink[i] && self.next[i] != SINK
+    }
+
+    /// Counts the steps from the sources to everything they reach, up to the nearest sink; whether there is one.
+    fn measure(&mut self, graph: &Graph) -> bool {
+        self.steps.clear();
+        self.steps.resize(2 * self.band.len(), NONE);
+        self.queue.clear();
+        for i in 0..self.band.len() {
+            if self.is_source[i] && self.previous[i] != SOURCE {
+                self.steps[2 * i] = 0;
+                self.queue.push(2 * i as u32);
+            }
+        }
+        let mut last = NONE;
+        let mut head = 0;
+        while head < self.queue.len() {
+            let state = self.queue[head];
+            head += 1;
+            let steps = self.steps[state as usize];
+            if steps >= last {
+                break;
+            }
+            if self.ends(state) {
+                last = steps;
+            }
+            let mut place = 0;
+            loop {
+                let next = self.follow(graph, state, &mut place);
+                if next == NONE {
+                    break;
                 }
-                if let Some(top) = self.stack.last_mut() {
-                    top.1 = 1;
-                }
-                if next != NONE && self.visited[next as usize] == self.phase {
-                    next = NONE;
-                }
-            } else {
-                if edge == 0 && self.is_sink[i] && self.next[i] != SINK {
-                    self.augment();
-                    return true;
-                }
-                // From the exit: to any neighbour, or to the entrance if the path leaves the vertex.
-                let neighbours = graph.of(self.band[i]);
-                let mut at = edge as usize;
-                while at <= neighbours.len() {
-                    let candidate = if at < neighbours.len() {
-                        let slot = self.slots[neighbours[at] as usize];
-                        if slot == NONE || slot == self.next[i] { NONE } else { 2 * slot }
-                    } else if self.previous[i] == NONE {
-                        NONE
-                    } else {
-                        2 * i as u32
-                    };
-                    at += 1;
-                    if candidate != NONE && self.visited[candidate as usize] != self.phase {
-                        next = candidate;
-                        break;
-                    }
-                }
-                if let Some(top) = self.stack.last_mut() {
-                    top.1 = at as u32;
+                if self.steps[next as usize] == NONE {
+                    self.steps[next as usize] = steps + 1;
+                    self.queue.push(next);
                 }
             }
+        }
+        last != NONE
+    }
+
+    /// Looks for one more shortest path from a vertex, depth first, and takes it.
+    fn search(&mut self, graph: &Graph, source: u32) {
+        self.stack.clear();
+        self.stack.push((2 * source, 0));
+        while let Some(&(state, mut place)) = self.stack.last() {
+            if place == 0 && self.ends(state) {
+                self.augment();
+                break;
+            }
+            let wanted = self.steps[state as usize] + 1;
+            let next = loop {
+                let next = self.follow(graph, state, &mut place);
+                if next == NONE || self.steps[next as usize] == wanted {
+                    break next;
+                }
+            };
+            if let Some(top) = self.stack.last_mut() {
+                top.1 = place;
+            }
             if next == NONE {
+                // Nobody needs to come here again.
+                self.steps[state as usize] = NONE;
                 self.stack.pop();
             } else {
-                self.visited[next as usize] = self.phase;
                 self.stack.push((next, 0));
             }
         }
-        false
+        for &(state, _) in &self.stack {
+            self.steps[state as usize] = NONE;
+        }
     }
 
     /// Lets a path run along the stack.

@@ -78,6 +78,7 @@ impl Refiner {
         }
     }
 
+    #[inline(never)]
     fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, unit: i64) {
         self.pass += 1;
         self.log.clear();
