@@ -4,19 +4,21 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 use super::bisection::bisect;
+use super::flow::Flow;
 use super::graph::{Graph, Groups};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
+use super::edge_cut::EdgeRefiner;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 
 /// Parts up to this size are ordered by minimum degree.
-const LEAF: usize = 300;
+fn leaf() -> usize { super::tune("LEAF", 120.) as usize }
 /// Unknowns in a cluster.
-const CLUSTER: usize = 8;
+fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
 
 /// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
 #[must_use]
-pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
+#[inline(never)] pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
     let _ = coordinates;
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
@@ -25,11 +27,13 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
         is_dense[v as usize] = true;
     }
     let mut order: Vec<u32> = (0..n as u32).filter(|&v| !is_dense[v as usize]).collect();
-    let (cluster_of, count) = graph.cluster(CLUSTER);
+    let (cluster_of, count) = graph.cluster(clus());
     let clusters = graph.contract(&cluster_of, count);
     let mut dissection = Dissection {
         labels: vec![NONE; n],
         refiner: Refiner::new(n),
+        flow: Flow::new(n),
+        coarse_refiner: EdgeRefiner::new(count),
         leaf: LeafOrder::new(n),
         place: vec![NONE; count],
         local: vec![NONE; count],
@@ -63,6 +67,8 @@ struct Dissection {
     cluster_of: Vec<u32>,
     labels: Vec<u32>,
     refiner: Refiner,
+    flow: Flow,
+    coarse_refiner: EdgeRefiner,
     leaf: LeafOrder,
     place: Vec<u32>,
     local: Vec<u32>,
@@ -72,10 +78,10 @@ struct Dissection {
 }
 
 impl Dissection {
-    fn split(&mut self, order: &mut [u32], part: Part) {
+    #[inline(never)] fn split(&mut self, order: &mut [u32], part: Part) {
         let range = part.begin..part.end;
         let members = &mut order[range];
-        if members.len() <= LEAF {
+        if members.len() <= leaf() {
             self.leaf.order(&self.graph, members);
             return;
         }
@@ -92,19 +98,44 @@ impl Dissection {
             self.descend(members, &part, &groups, count, count);
             return;
         }
-        let sides = bisect(&part.clusters, &mut self.refiner);
+        let mut sides = bisect(&part.clusters, &mut self.coarse_refiner);
+        // 2: has unknowns next to the other side.
+        let at_cut: Vec<bool> = (0..sides.len())
+            .map(|v| part.clusters.of(v as u32).iter().any(|&u| sides[u as usize] != sides[v]))
+            .collect();
         self.base += LABELS;
         let base = self.base;
+        for &v in &*members {
+            let cluster = self.local[self.cluster_of[v as usize] as usize] as usize;
+            self.labels[v as usize] = base + sides[cluster];
+        }
         let mut cut = Cut::default();
         for &v in &*members {
-            let side = sides[self.local[self.cluster_of[v as usize] as usize] as usize];
-            self.labels[v as usize] = base + side;
-            cut.weights[side as usize] += 1;
-            if side == SEPARATOR {
-                cut.separator.push(v);
+            let cluster = self.local[self.cluster_of[v as usize] as usize] as usize;
+            let side = sides[cluster];
+            if at_cut[cluster] {
+                let across = base + 1 - side;
+                if self.graph.of(v).iter().any(|&u| self.labels[u as usize] == across) {
+                    cut.separator.push(v);
+                    continue;
+                }
             }
+            cut.weights[side as usize] += 1;
         }
-        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, 4, 1);
+        cut.weights[2] = cut.separator.len() as i64;
+        for &v in &cut.separator {
+            self.labels[v as usize] = base + SEPARATOR;
+        }
+        sides.clear();
+        let before = cut.weights;
+        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP",4.) as usize, 1);
+        let mid = cut.weights;
+        if members.len() as f64 > super::tune("FLOWM", 3000.) {
+            self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, super::tune("DEPTH", 3.) as usize);
+            let fp2 = super::tune("FP2", 0.) as usize;
+            if fp2 > 0 { self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1); }
+        }
+        if super::tune("SHOW", 1e9) < members.len() as f64 { std::eprintln!("{} {} before {:?} mid {:?} after {:?} rel {:.3}", members.len(), part.ids.len(), before, mid, cut.weights, cut.weights[2] as f64 / (members.len() as f64).sqrt()); }
         if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
             self.order_whole(members);
             return;
@@ -114,7 +145,7 @@ impl Dissection {
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+    #[inline(never)] fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
         let groups = Groups::new(group_of, count);
@@ -126,7 +157,7 @@ impl Dissection {
             // The clusters of a part, with what they still hold.
             let mut kept: Vec<u32> = Vec::new();
             let mut weights: Vec<u32> = Vec::new();
-            if end - begin > LEAF {
+            if end - begin > leaf() {
                 for &v in &members[begin..end] {
                     let cluster = self.local[self.cluster_of[v as usize] as usize];
                     let place = &mut self.place[cluster as usize];

@@ -10,14 +10,15 @@ pub(super) struct LeafOrder {
     rows: Vec<u64>,
     degrees: Vec<u32>,
     around: Vec<u32>,
+    mode: u32,
 }
 
 impl LeafOrder {
     pub(super) fn new(n: usize) -> Self {
-        Self { bits: vec![NONE; n], rows: Vec::new(), degrees: Vec::new(), around: Vec::new() }
+        Self { bits: vec![NONE; n], rows: Vec::new(), degrees: Vec::new(), around: Vec::new(), mode: super::tune("MODE", 5.) as u32 }
     }
 
-    pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
+    #[inline(never)] pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
         let n = part.len();
         if n < 2 {
             return;
@@ -44,7 +45,8 @@ impl LeafOrder {
                 let bit = self.bits[u as usize];
                 row[bit as usize / 64] |= 1 << (bit % 64);
             }
-            self.degrees.push(graph.of(v).len() as u32);
+            let d = graph.of(v).len() as u32;
+            self.degrees.push(match self.mode { 0 => d, 2|3 => d << 10, 4 => (d-1) << 10, 5|6 => 2 * d*(d-1), _ => d*(d-1) });
         }
         for v in part.iter().chain(&self.around) {
             self.bits[*v as usize] = NONE;
@@ -70,6 +72,8 @@ impl LeafOrder {
     fn eliminate(&mut self, pivot: usize, n: usize, words: usize) {
         self.degrees[pivot] = NONE;
         let clique = self.rows[pivot * words..(pivot + 1) * words].to_vec();
+        let size: u32 = clique.iter().map(|a| a.count_ones()).sum();
+        let mode = self.mode;
         for word in 0..n.div_ceil(64) {
             let mut left = clique[word];
             while left != 0 {
@@ -87,7 +91,17 @@ impl LeafOrder {
                 // Neither the unknown itself nor the pivot.
                 row[i / 64] &= !(1 << (i % 64));
                 row[pivot / 64] &= !(1 << (pivot % 64));
-                self.degrees[i] = degree - 2;
+                let (d, c) = (degree as i64 - 2, size as i64 - 1);
+                self.degrees[i] = match mode {
+                    0 => d as u32,
+                    1 => (d * (d - 1) - c * (c - 1)).max(0) as u32,
+                    2 => (d * 1024 - c) as u32,
+                    3 => (d * 1024 + c) as u32,
+                    4 => (((d * (d - 1) - c * (c - 1)).max(0) << 10) / d.max(1)) as u32,
+                    5 => (2 * d * (d - 1) - c * (c - 1)).max(0) as u32,
+                    6 => (2 * d * (d - 1) - c * (c - 1)).max(0) as u32,
+                    _ => d as u32,
+                };
             }
         }
     }

@@ -2,6 +2,8 @@
 
 mod bisection;
 mod dissection;
+mod edge_cut;
+mod flow;
 mod graph;
 mod leaf;
 mod minimum_degree;
@@ -60,4 +62,11 @@ impl Permutation {
     pub fn old_to_new(&self) -> &[u32] {
         &self.old_to_new
     }
+}
+
+/// TEMP
+pub fn tune(name: &str, default: f64) -> f64 {
+    #[cfg(not(target_arch = "wasm32"))]
+    if let Ok(v) = std::env::var(name) { return v.parse().unwrap_or(default); }
+    default
 }

@@ -20,7 +20,7 @@ pub(super) struct Cut {
 }
 
 /// Beyond this share of a part, the difference of the sides counts as much as the separator itself.
-const IMBALANCE: f64 = 0.3;
+pub(super) const IMBALANCE: f64 = 0.3;
 
 impl Cut {
     /// The separator's weight, with a malus for the imbalance of the sides.
@@ -60,7 +60,7 @@ impl Refiner {
     }
 
     /// Improves a cut until nothing changes or `passes` are over.
-    pub(super) fn refine(
+    #[inline(never)] pub(super) fn refine(
         &mut self,
         graph: &Graph,
         labels: &mut [u32],
@@ -78,6 +78,7 @@ impl Refiner {
         }
     }
 
+    #[inline(never)]
     fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, unit: i64) {
         self.pass += 1;
         self.log.clear();
@@ -89,7 +90,7 @@ impl Refiner {
         let mut best_length = 0;
         let mut best_weights = cut.weights;
         let mut stall = 0;
-        let patience = (separator.len() / 2).clamp(30, 200);
+        let patience = ((separator.len() as f64 * super::tune("PS",0.5)) as usize).clamp(super::tune("PMIN",30.) as usize, super::tune("PMAX",200.) as usize);
         while stall < patience {
             let Some((v, side)) = self.choose(cut) else { break };
             self.shift(graph, labels, base, cut, v, side, unit);

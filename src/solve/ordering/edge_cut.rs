@@ -1,0 +1,163 @@
+//! Smaller edge cuts by local search.
+
+use super::graph::Graph;
+use super::queue::BucketQueue;
+use super::refine::{IMBALANCE, LEFT, RIGHT};
+
+/// A cut between two sides.
+#[derive(Clone, Copy, Default)]
+pub(super) struct EdgeCut {
+    /// Weights of left and right.
+    pub(super) weights: [i64; 2],
+    /// Weight of the edges between.
+    pub(super) edges: i64,
+}
+
+impl EdgeCut {
+    pub(super) fn cost(&self, all_edges: f64) -> f64 {
+        let [left, right] = self.weights.map(|weight| weight as f64);
+        let imbalance = (left - right).abs() / (left + right);
+        let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
+        self.edges as f64 * (1.0 + super::tune("BAL", 0.3) * imbalance * imbalance) + all_edges * excess
+    }
+}
+
+const BUCKETS: i64 = 512;
+
+/// Fiduccia–Mattheyses ([Fiduccia82]).
+pub(super) struct EdgeRefiner {
+    /// Vertices at the cut by side and gain of moving them.
+    queues: [BucketQueue; 2],
+    gains: Vec<i64>,
+    moved: Vec<u32>,
+    pass: u32,
+    log: Vec<u32>,
+}
+
+impl EdgeRefiner {
+    pub(super) fn new(n: usize) -> Self {
+        Self {
+            queues: [BucketQueue::new(n, BUCKETS as usize), BucketQueue::new(n, BUCKETS as usize)],
+            gains: vec![0; n],
+            moved: vec![0; n],
+            pass: 0,
+            log: Vec::new(),
+        }
+    }
+
+    #[inline(never)] pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
+        let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
+        let unit = (all / (16 * graph.len() as i64)).max(1);
+        let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
+        for _ in 0..passes {
+            let before = cut.cost(all as f64);
+            self.run(graph, labels, cut, unit, all as f64, &mut boundary);
+            if cut.cost(all as f64) >= before {
+                break;
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: i64, all: f64, boundary: &mut Vec<u32>) {
+        self.pass += 1;
+        self.log.clear();
+        self.pass += 1;
+        boundary.retain(|&v| {
+            core::mem::replace(&mut self.moved[v as usize], self.pass) != self.pass
+                && graph.of(v).iter().any(|&u| labels[u as usize] != labels[v as usize])
+        });
+        self.pass += 1;
+        let count = boundary.len();
+        if boundary.is_empty() {
+            boundary.push(0);
+        }
+        for &v in &*boundary {
+            self.enter(graph, labels, v, unit);
+        }
+        let mut best = cut.cost(all);
+        let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
+        let patience = ((count as f64 * super::tune("EPS", 0.5)) as usize).clamp(super::tune("EPMIN",30.) as usize, super::tune("EPMAX",200.) as usize);
+        while stall < patience {
+            let Some(v) = self.choose(cut) else { break };
+            let from = labels[v as usize];
+            let weight = i64::from(graph.weights[v as usize]);
+            cut.weights[from as usize] -= weight;
+            cut.weights[1 - from as usize] += weight;
+            cut.edges -= self.gains[v as usize];
+            labels[v as usize] = LEFT + RIGHT - from;
+            self.queues[from as usize].remove(v);
+            self.moved[v as usize] = self.pass;
+            self.log.push(v);
+            for edge in graph.range(v) {
+                let u = graph.neighbours[edge];
+                if self.moved[u as usize] == self.pass {
+                    continue;
+                }
+                let side = labels[u as usize] as usize;
+                if self.queues[side].holds(u) {
+                    let weight = 2 * i64::from(graph.edge_weight(edge));
+                    let gain = self.gains[u as usize] + if side == from as usize { weight } else { -weight };
+                    self.gains[u as usize] = gain;
+                    let key = Self::key(gain, unit);
+                    if key != self.queues[side].key(u) {
+                        self.queues[side].remove(u);
+                        self.queues[side].insert(u, key);
+                    }
+                } else {
+                    boundary.push(u);
+                    self.enter(graph, labels, u, unit);
+                }
+            }
+            let cost = cut.cost(all);
+            if cost < best {
+                (best, best_length, best_cut, stall) = (cost, self.log.len(), *cut, 0);
+            } else if cut.weights[0].min(cut.weights[1]) * 4 > cut.weights[0].max(cut.weights[1]) {
+                stall += 1;
+            }
+        }
+        for &v in &*boundary {
+            for queue in &mut self.queues {
+                if queue.holds(v) {
+                    queue.remove(v);
+                }
+            }
+        }
+        for &v in &self.log[best_length..] {
+            labels[v as usize] = LEFT + RIGHT - labels[v as usize];
+        }
+        *cut = best_cut;
+    }
+
+    fn choose(&mut self, cut: &EdgeCut) -> Option<u32> {
+        let most = ((cut.weights[0] + cut.weights[1]) as f64 * 0.5 * (1.0 + IMBALANCE)) as i64;
+        let mut best: Option<(u32, i64)> = None;
+        for from in 0..2 {
+            let (here, there) = (cut.weights[from], cut.weights[1 - from]);
+            if there > here && there >= most {
+                continue;
+            }
+            if let Some(v) = self.queues[from].first() {
+                let gain = self.gains[v as usize];
+                if best.is_none_or(|(_, other)| gain > other || gain == other && here > there) {
+                    best = Some((v, gain));
+                }
+            }
+        }
+        best.map(|(v, _)| v)
+    }
+
+    fn key(gain: i64, unit: i64) -> u32 {
+        (BUCKETS / 2 - gain / unit).clamp(0, BUCKETS - 1) as u32
+    }
+
+    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: i64) {
+        let mut gain = 0;
+        for edge in graph.range(v) {
+            let weight = i64::from(graph.edge_weight(edge));
+            gain += if labels[graph.neighbours[edge] as usize] == labels[v as usize] { -weight } else { weight };
+        }
+        self.gains[v as usize] = gain;
+        self.queues[labels[v as usize] as usize].insert(v, Self::key(gain, unit));
+    }
+}

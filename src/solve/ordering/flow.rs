@@ -1,0 +1,257 @@
+//! The smallest vertex separator near a given one.
+
+use super::NONE;
+use super::graph::Graph;
+use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
+
+/// The ends of paths.
+const SOURCE: u32 = u32::MAX - 1;
+const SINK: u32 = u32::MAX - 2;
+
+/// Finds as many paths as possible that share no vertex through a band around the separator; the smallest
+/// separator in the band has one vertex on each of them (Menger's theorem).
+pub(super) struct Flow {
+    /// The place of a vertex in the band.
+    slots: Vec<u32>,
+    band: Vec<u32>,
+    /// The path through a vertex of the band: where it comes from and where it goes.
+    previous: Vec<u32>,
+    next: Vec<u32>,
+    is_source: Vec<bool>,
+    is_sink: Vec<bool>,
+    /// Steps from the sources to the entrance (2 i) and the exit (2 i + 1) of a vertex.
+    steps: Vec<u32>,
+    queue: Vec<u32>,
+    /// Entrances and exits of a path, each with its place in the list of what follows it.
+    stack: Vec<(u32, u32)>,
+}
+
+impl Flow {
+    pub(super) fn new(n: usize) -> Self {
+        Self {
+            slots: vec![NONE; n],
+            band: Vec::new(),
+            previous: Vec::new(),
+            next: Vec::new(),
+            is_source: Vec::new(),
+            is_sink: Vec::new(),
+            steps: Vec::new(),
+            queue: Vec::new(),
+            stack: Vec::new(),
+        }
+    }
+
+    /// Replaces the separator by the smallest one within `depth` steps, where that is better.
+    #[inline(never)]
+    pub(super) fn improve(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, depth: usize) {
+        self.collect(graph, labels, base, cut, depth);
+        self.saturate(graph);
+        // What the sources still reach lies left of the separator.
+        let mut new = Cut { weights: cut.weights, separator: Vec::new() };
+        for i in 0..self.band.len() {
+            let v = self.band[i];
+            let weight = i64::from(graph.weights[v as usize]);
+            new.weights[(labels[v as usize] - base) as usize] -= weight;
+            let label = self.label(i);
+            new.weights[label as usize] += weight;
+            if label == SEPARATOR {
+                new.separator.push(v);
+            }
+        }
+        if new.cost() < cut.cost() {
+            for i in 0..self.band.len() {
+                labels[self.band[i] as usize] = base + self.label(i);
+            }
+            *cut = new;
+        }
+        for &v in &self.band {
+            self.slots[v as usize] = NONE;
+        }
+    }
+
+    fn label(&self, i: usize) -> u32 {
+        if self.steps[2 * i + 1] != NONE {
+            LEFT
+        } else if self.steps[2 * i] != NONE {
+            SEPARATOR
+        } else {
+            RIGHT
+        }
+    }
+
+    #[inline(never)] fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
+        self.band.clear();
+        self.band.extend_from_slice(&cut.separator);
+        for (i, &v) in self.band.iter().enumerate() {
+            self.slots[v as usize] = i as u32;
+        }
+        let mut begin = 0;
+        for _ in 0..depth {
+            let end = self.band.len();
+            for i in begin..end {
+                for &u in graph.of(self.band[i]) {
+                    if self.slots[u as usize] == NONE && labels[u as usize].wrapping_sub(base) < SEPARATOR {
+                        self.slots[u as usize] = self.band.len() as u32;
+                        self.band.push(u);
+                    }
+                }
+            }
+            begin = end;
+        }
+        let n = self.band.len();
+        self.is_source.clear();
+        self.is_sink.clear();
+        self.is_source.resize(n, false);
+        self.is_sink.resize(n, false);
+        for i in begin..n {
+            for &u in graph.of(self.band[i]) {
+                if self.slots[u as usize] == NONE {
+                    self.is_source[i] |= labels[u as usize] == base + LEFT;
+                    self.is_sink[i] |= labels[u as usize] == base + RIGHT;
+                }
+            }
+        }
+        for list in [&mut self.previous, &mut self.next] {
+            list.clear();
+            list.resize(n, NONE);
+        }
+    }
+
+    /// Blocking flows on shortest paths until there is none ([Dinic70]).
+    #[inline(never)]
+    fn saturate(&mut self, graph: &Graph) {
+        while self.measure(graph) {
+            for i in 0..self.band.len() {
+                if self.is_source[i] && self.previous[i] != SOURCE {
+                    self.search(graph, i as u32);
+                }
+            }
+        }
+        for i in 0..self.band.len() {
+            if self.is_source[i] && self.steps[2 * i] == NONE {
+                self.steps[2 * i] = 0;
+            }
+        }
+    }
+
+    /// What follows an entrance or exit, from the given place of its list on; `NONE` at the end.
+    fn follow(&self, graph: &Graph, state: u32, place: &mut u32) -> u32 {
+        let i = (state / 2) as usize;
+        if state % 2 == 0 {
+            // Through an unused vertex, or back along the path that uses it.
+            *place += 1;
+            let from = if self.previous[i] == NONE { i as u32 } else { self.previous[i] };
+            return if *place > 1 || from == SOURCE { NONE } else { 2 * from + 1 };
+        }
+        // To any neighbour, or, where a path leaves the vertex, to its entrance.
+        let neighbours = graph.of(self.band[i]);
+        while (*place as usize) < neighbours.len() {
+            let slot = self.slots[neighbours[*place as usize] as usize];
+            *place += 1;
+            if slot != NONE && slot != self.next[i] {
+                return 2 * slot;
+            }
+        }
+        *place += 1;
+        if *place as usize > neighbours.len() + 1 || self.previous[i] == NONE { NONE } else { 2 * i as u32 }
+    }
+
+    /// Whether a path can end here.
+    fn ends(&self, state: u32) -> bool {
+        let i = (state / 2) as usize;
+        state % 2 == 1 && self.is_sink[i] && self.next[i] != SINK
+    }
+
+    /// Counts the steps from the sources to everything they reach, up to the nearest sink; whether there is one.
+    fn measure(&mut self, graph: &Graph) -> bool {
+        self.steps.clear();
+        self.steps.resize(2 * self.band.len(), NONE);
+        self.queue.clear();
+        for i in 0..self.band.len() {
+            if self.is_source[i] && self.previous[i] != SOURCE {
+                self.steps[2 * i] = 0;
+                self.queue.push(2 * i as u32);
+            }
+        }
+        let mut last = NONE;
+        let mut head = 0;
+        while head < self.queue.len() {
+            let state = self.queue[head];
+            head += 1;
+            let steps = self.steps[state as usize];
+            if steps >= last {
+                break;
+            }
+            if self.ends(state) {
+                last = steps;
+            }
+            let mut place = 0;
+            loop {
+                let next = self.follow(graph, state, &mut place);
+                if next == NONE {
+                    break;
+                }
+                if self.steps[next as usize] == NONE {
+                    self.steps[next as usize] = steps + 1;
+                    self.queue.push(next);
+                }
+            }
+        }
+        last != NONE
+    }
+
+    /// Looks for one more shortest path from a vertex, depth first, and takes it.
+    fn search(&mut self, graph: &Graph, source: u32) {
+        self.stack.clear();
+        self.stack.push((2 * source, 0));
+        while let Some(&(state, mut place)) = self.stack.last() {
+            if place == 0 && self.ends(state) {
+                self.augment();
+                break;
+            }
+            let wanted = self.steps[state as usize] + 1;
+            let next = loop {
+                let next = self.follow(graph, state, &mut place);
+                if next == NONE || self.steps[next as usize] == wanted {
+                    break next;
+                }
+            };
+            if let Some(top) = self.stack.last_mut() {
+                top.1 = place;
+            }
+            if next == NONE {
+                // Nobody needs to come here again.
+                self.steps[state as usize] = NONE;
+                self.stack.pop();
+            } else {
+                self.stack.push((next, 0));
+            }
+        }
+        for &(state, _) in &self.stack {
+            self.steps[state as usize] = NONE;
+        }
+    }
+
+    /// Lets a path run along the stack.
+    fn augment(&mut self) {
+        for pair in self.stack.windows(2) {
+            let (from, to) = (pair[0].0, pair[1].0);
+            // The path leaves a vertex.
+            if from % 2 == 1 && to + 1 == from {
+                self.previous[(to / 2) as usize] = NONE;
+                self.next[(to / 2) as usize] = NONE;
+            }
+        }
+        for pair in self.stack.windows(2) {
+            let (from, to) = (pair[0].0, pair[1].0);
+            if from % 2 == 1 && to + 1 != from {
+                self.next[(from / 2) as usize] = to / 2;
+                self.previous[(to / 2) as usize] = from / 2;
+            }
+        }
+        if let (Some(first), Some(last)) = (self.stack.first(), self.stack.last()) {
+            self.previous[(first.0 / 2) as usize] = SOURCE;
+            self.next[(last.0 / 2) as usize] = SINK;
+        }
+    }
+}
