@@ -320,7 +320,10 @@ stage_error! {
             row: usize,
         } => "row {row} of the system holds a number that is not finite",
         /// The Cholesky factorisation met a pivot that is not positive.
-        NotPositiveDefinite {} => "the matrix is not numerically positive definite; a larger epsilon helps",
+        NotPositiveDefinite {
+            /// The column, hence the unknown.
+            column: usize,
+        } => "the matrix is not numerically positive definite at unknown {column}; a larger epsilon helps",
         /// An iteration or refinement stopped before its tolerance.
         NotConverged {
             /// Iterations done.

@@ -41,7 +41,7 @@ pub(super) struct TikhonovSystem {
 struct Direct {
     gram: CscMatrix<f64>,
     analysis: CholeskyAnalysis,
-    factor: Option<(f64, Metric, MassScale, CholeskyFactor)>,
+    factor: Option<(f64, Metric, MassScale, CholeskyFactor<f64>)>,
 }
 
 /// B on the unknowns.
@@ -107,7 +107,7 @@ impl TikhonovSystem {
         let epsilon = options.epsilon / scale;
         let heaviest = (0..self.active.len()).map(|i| self.mass().diagonal(i)).fold(0.0, f64::max);
         if !self.active.is_empty() && epsilon * heaviest < SMALLEST_WEIGHT {
-            return Err(SolveError::NotPositiveDefinite {}.into());
+            return Err(SolveError::NotPositiveDefinite { column: 0 }.into());
         }
         let (solutions, route, factor_nonzeros) = match solver {
             _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
@@ -165,7 +165,7 @@ impl TikhonovSystem {
             None => {
                 progress(Phase::Analysis, 0.0);
                 let gram = gram(&self.laplacian)?;
-                let analysis = CholeskyAnalysis::new(gram.pattern())?;
+                let analysis = CholeskyAnalysis::new(gram.pattern().clone())?;
                 Direct { gram, analysis, factor: None }
             }
         };

@@ -49,8 +49,8 @@ pub fn conjugate_gradient(
     if let Some(row) = (0..n).find(|&i| !(b[i].is_finite() && x[i].is_finite())) {
         return Err(SolveError::NonFiniteEntry { row });
     }
-    if diagonal.iter().any(|&d| !(d.is_finite() && d > 0.0)) {
-        return Err(SolveError::NotPositiveDefinite {});
+    if let Some(column) = diagonal.iter().position(|&d| !(d.is_finite() && d > 0.0)) {
+        return Err(SolveError::NotPositiveDefinite { column });
     }
     let size = norm(b);
     if size == 0.0 {
@@ -100,7 +100,7 @@ fn descend(
         let image = apply(&direction);
         let curvature = dot(&direction, &image);
         if !(curvature.is_finite() && curvature > 0.0) {
-            return Err(SolveError::NotPositiveDefinite {});
+            return Err(SolveError::NotPositiveDefinite { column: 0 });
         }
         let step = rz / curvature;
         for i in 0..x.len() {

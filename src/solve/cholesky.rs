@@ -1,17 +1,14 @@
 //! The direct solver: order and analyse a pattern once, factorise it for any values, solve for any right-hand sides.
-//!
-//! Behind this interface stands nalgebra-sparse's left-looking `CscCholesky`; callers see neither it nor its types.
 
 use std::sync::Arc;
 
-use nalgebra::DMatrixViewMut;
-use nalgebra_sparse::CscMatrix;
-use nalgebra_sparse::factorization::{CscCholesky, CscSymbolicCholesky};
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::matrix::{ADDRESS_SPACE, norm, product};
+use super::multifrontal::{Workspace, reserve, storage};
 use super::ordering::{Permutation, minimum_degree};
-use super::symbolic::FactorSize;
+use super::scalar::{Scalar, Unit};
+use super::symbolic::{FactorSize, Symbolic};
+use super::triangular::{solve_block, solve_one};
 use crate::error::SolveError;
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
@@ -22,129 +19,189 @@ pub struct CholeskyAnalysis {
 
 #[derive(Debug)]
 struct Analysis {
-    permutation: Permutation,
-    symbolic: CscSymbolicCholesky,
-    /// For every entry of the permuted matrix its place among the values of the original one.
-    sources: Vec<usize>,
-    /// Where the rows of the original matrix start, to name them in errors; as it is symmetric, so do its columns.
-    offsets: Vec<usize>,
-    size: FactorSize,
+    pattern: SparsityPattern,
+    symbolic: Symbolic,
 }
 
 impl CholeskyAnalysis {
     /// Orders the unknowns by [`minimum_degree`] and analyses the pattern of a symmetric matrix, both triangles stored.
     ///
     /// # Errors
-    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`; `OutOfMemory` with the number of bytes where
-    /// the factor would not fit the address space.
-    pub fn new(pattern: &SparsityPattern) -> Result<Self, SolveError> {
-        check_symmetric(pattern)?;
-        Self::analyze(pattern, Permutation::new(minimum_degree(pattern))?)
+    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
+    pub fn new(pattern: SparsityPattern) -> Result<Self, SolveError> {
+        check_symmetric(&pattern)?;
+        let permutation = Permutation::new(minimum_degree(&pattern))?;
+        Ok(Self::analyze(pattern, &permutation))
     }
 
-    /// As [`CholeskyAnalysis::new`], with an ordering of the caller's.
+    /// As [`CholeskyAnalysis::new`], with an ordering of the caller's. The order of elimination is an equivalent one, with
+    /// the same entries in the factor.
     ///
     /// # Errors
     /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where the permutation has another size.
-    pub fn with_permutation(pattern: &SparsityPattern, permutation: Permutation) -> Result<Self, SolveError> {
-        check_symmetric(pattern)?;
+    pub fn with_permutation(pattern: SparsityPattern, permutation: &Permutation) -> Result<Self, SolveError> {
+        check_symmetric(&pattern)?;
         let (expected, actual) = (pattern.major_dim(), permutation.new_to_old().len());
         if expected != actual {
             return Err(SolveError::DimensionMismatch { expected, actual });
         }
-        Self::analyze(pattern, permutation)
+        Ok(Self::analyze(pattern, permutation))
     }
 
-    fn analyze(pattern: &SparsityPattern, permutation: Permutation) -> Result<Self, SolveError> {
-        let size = FactorSize::count(pattern, &permutation);
-        // Values and row ids of the factor, the ids again by rows, and once more while they are built.
-        let bytes = size.nonzeros.saturating_mul(8 + 4 * size_of::<usize>() as u64);
-        if bytes > ADDRESS_SPACE {
-            return Err(SolveError::OutOfMemory { bytes });
-        }
-        let (permuted, sources) = permute(pattern, &permutation);
-        let symbolic = CscSymbolicCholesky::factor(permuted);
-        let offsets = pattern.major_offsets().to_vec();
-        Ok(Self { shared: Arc::new(Analysis { permutation, symbolic, sources, offsets, size }) })
+    fn analyze(pattern: SparsityPattern, permutation: &Permutation) -> Self {
+        let symbolic = Symbolic::new(&pattern, permutation);
+        Self { shared: Arc::new(Analysis { pattern, symbolic }) }
     }
 
     /// Number of unknowns.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        self.shared.permutation.new_to_old().len()
+        self.shared.pattern.major_dim()
+    }
+
+    /// The pattern analysed.
+    #[must_use]
+    pub fn pattern(&self) -> &SparsityPattern {
+        &self.shared.pattern
     }
 
     /// What the factor holds.
     #[must_use]
     pub fn size(&self) -> FactorSize {
-        self.shared.size
+        self.shared.symbolic.size
     }
 
-    /// Factorises the matrix with the analysed pattern and the given values, in the order of the pattern.
+    /// Bytes that a factor of this type and its computation take.
+    #[must_use]
+    pub fn memory<T: Scalar>(&self) -> u64 {
+        let (factor, stack) = storage::<T::Unit>(&self.shared.symbolic);
+        factor.saturating_add(stack).saturating_mul(size_of::<T::Unit>() as u64)
+    }
+
+    /// Factorises the matrix with the analysed pattern and the given values, in the order of the pattern: A = L Lᵀ up to
+    /// the ordering, for complex values too (the transpose, without conjugation).
+    ///
+    /// Real matrices must be positive definite; complex ones symmetric with a real part that is positive semi-definite.
     ///
     /// # Errors
-    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite`.
-    pub fn factor(&self, values: &[f64]) -> Result<CholeskyFactor, SolveError> {
-        let permuted = self.permuted(values)?;
-        let factor = CscCholesky::factor_numerical(self.shared.symbolic.clone(), &permuted)
-            .map_err(|_| SolveError::NotPositiveDefinite {})?;
-        Ok(CholeskyFactor { analysis: self.clone(), factor })
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, and `OutOfMemory` with the number of
+    /// bytes, before anything is computed.
+    pub fn factor<T: Scalar>(&self, values: &[T::Wide]) -> Result<CholeskyFactor<T>, SolveError> {
+        self.check::<T>(values)?;
+        let (units, stack) = storage::<T::Unit>(&self.shared.symbolic);
+        let out_of_memory = |_| SolveError::OutOfMemory { bytes: self.memory::<T>() };
+        let entries = reserve(units).map_err(out_of_memory)?;
+        let workspace = Workspace::new(&self.shared.symbolic, stack).map_err(out_of_memory)?;
+        // Vectors that will be needed beside the factor must find room too.
+        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).map_err(out_of_memory)?);
+        let mut factor = CholeskyFactor { analysis: self.clone(), entries, workspace, lost: None };
+        factor.compute(values)?;
+        Ok(factor)
     }
 
-    fn permuted(&self, values: &[f64]) -> Result<Vec<f64>, SolveError> {
-        if values.len() != self.shared.sources.len() {
+    fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
+        if values.len() != self.shared.pattern.nnz() {
             return Err(SolveError::PatternMismatch {});
         }
-        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
-            let row = self.shared.offsets.partition_point(|&start| start <= place) - 1;
+        if let Some(place) = values.iter().position(|&value| !T::is_finite(value)) {
+            let row = self.shared.pattern.major_offsets().partition_point(|&start| start <= place) - 1;
             return Err(SolveError::NonFiniteEntry { row });
         }
-        Ok(self.shared.sources.iter().map(|&source| values[source]).collect())
+        Ok(())
     }
 }
 
-/// A numeric factor P A Pᵀ = L Lᵀ.
+/// Bytes per unknown that must be left beside a factor, for a few dozen vectors.
+const HEADROOM: u64 = 256;
+
+/// A numeric factor.
 #[derive(Debug, Clone)]
-pub struct CholeskyFactor {
+pub struct CholeskyFactor<T: Scalar> {
     analysis: CholeskyAnalysis,
-    factor: CscCholesky<f64>,
+    entries: Vec<T::Unit>,
+    workspace: Workspace<T::Unit>,
+    /// The column at which the factorisation failed.
+    lost: Option<usize>,
 }
 
-impl CholeskyFactor {
+impl<T: Scalar> CholeskyFactor<T> {
     /// Factorises other values on the same pattern, in the memory of this factor.
     ///
     /// # Errors
-    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite`; after the last the factor must not be used to solve.
-    pub fn refactor(&mut self, values: &[f64]) -> Result<(), SolveError> {
-        let permuted = self.analysis.permuted(values)?;
-        self.factor.refactor(&permuted).map_err(|_| SolveError::NotPositiveDefinite {})
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column; after the last, solving gives the same
+    /// error.
+    pub fn refactor(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
+        self.analysis.check::<T>(values)?;
+        self.compute(values)
+    }
+
+    fn compute(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
+        let Analysis { pattern, symbolic } = &*self.analysis.shared;
+        let outcome = self.workspace.factorize(symbolic, pattern, values, &mut self.entries);
+        self.lost = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
+        self.lost.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
     }
 
     /// Solves A X = B for right-hand sides stored one after the other.
     ///
     /// # Errors
     /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`.
-    pub fn solve(&self, right_hand_sides: &[f64]) -> Result<Vec<f64>, SolveError> {
+    pub fn solve(&self, right_hand_sides: &[T::Wide]) -> Result<Vec<T::Wide>, SolveError> {
         let n = self.analysis.unknowns();
         if n == 0 || !right_hand_sides.len().is_multiple_of(n) {
             return Err(SolveError::DimensionMismatch { expected: n, actual: right_hand_sides.len() });
         }
-        if let Some(place) = right_hand_sides.iter().position(|value| !value.is_finite()) {
+        if let Some(place) = right_hand_sides.iter().position(|&value| !T::is_finite(value)) {
             return Err(SolveError::NonFiniteEntry { row: place % n });
         }
-        let new_to_old = self.analysis.shared.permutation.new_to_old();
-        let mut permuted: Vec<f64> = right_hand_sides
-            .chunks_exact(n)
-            .flat_map(|column| new_to_old.iter().map(|&old| column[old as usize]))
-            .collect();
-        self.factor.solve_mut(DMatrixViewMut::from_slice(&mut permuted, n, right_hand_sides.len() / n));
-        let mut solution = vec![0.0; permuted.len()];
-        for (from, to) in permuted.chunks_exact(n).zip(solution.chunks_exact_mut(n)) {
-            for (&value, &old) in from.iter().zip(new_to_old) {
-                to[old as usize] = value;
+        if let Some(column) = self.lost {
+            return Err(SolveError::NotPositiveDefinite { column });
+        }
+        let mut solutions = vec![T::Wide::default(); right_hand_sides.len()];
+        let block = n * T::Unit::LANES;
+        for (b, x) in right_hand_sides.chunks(block).zip(solutions.chunks_mut(block)) {
+            // A block costs as much as a few single solves, however many of its lanes are used.
+            if b.len() / n <= T::Unit::LANES / 4 {
+                for (b, x) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
+                    self.solve_one(b, x);
+                }
+            } else {
+                self.solve_block(b, x);
             }
         }
-        Ok(solution)
+        Ok(solutions)
+    }
+
+    fn solve_one(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+        let symbolic = &self.analysis.shared.symbolic;
+        let new_to_old = symbolic.permutation.new_to_old();
+        let [shrink, grow] = scales::<T>(b);
+        let mut permuted: Vec<T> =
+            new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
+        solve_one(symbolic, &self.entries, &mut permuted);
+        for (value, &old) in permuted.iter().zip(new_to_old) {
+            x[old as usize] = T::times(value.wide(), grow);
+        }
+    }
+
+    fn solve_block(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+        let symbolic = &self.analysis.shared.symbolic;
+        let new_to_old = symbolic.permutation.new_to_old();
+        let n = new_to_old.len();
+        let mut permuted = vec![T::Unit::ZERO; n];
+        for (lane, b) in b.chunks_exact(n).enumerate() {
+            let [shrink, _] = scales::<T>(b);
+            for (unit, &old) in permuted.iter_mut().zip(new_to_old) {
+                unit.set_lane(lane, T::narrow(T::times(b[old as usize], shrink)));
+            }
+        }
+        solve_block(symbolic, &self.entries, &mut permuted);
+        for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
+            let [_, grow] = scales::<T>(b);
+            for (unit, &old) in permuted.iter().zip(new_to_old) {
+                x[old as usize] = T::times(unit.lane(lane).wide(), grow);
+            }
+        }
     }
 
     /// The analysis this factor was made with.
@@ -152,19 +209,12 @@ impl CholeskyFactor {
     pub fn analysis(&self) -> &CholeskyAnalysis {
         &self.analysis
     }
+}
 
-    /// ‖b − A x‖₂ / ‖b‖₂ for one right-hand side; 0 where b is zero and x solves exactly.
-    ///
-    /// # Panics
-    /// Where the sizes do not fit.
-    #[must_use]
-    pub fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
-        let residual: Vec<f64> = product(matrix, x).iter().zip(b).map(|(ax, b)| b - ax).collect();
-        match (norm(&residual), norm(b)) {
-            (0.0, _) => 0.0,
-            (r, b) => r / b,
-        }
-    }
+/// What brings a right-hand side to about 1 and back: residuals are far below the range of single precision.
+fn scales<T: Scalar>(b: &[T::Wide]) -> [f64; 2] {
+    let largest = b.iter().fold(0.0, |largest: f64, &value| largest.max(T::magnitude(value)));
+    if T::SINGLE && largest >= f64::MIN_POSITIVE { [largest.recip(), largest] } else { [1.0, 1.0] }
 }
 
 fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {
@@ -172,39 +222,26 @@ fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {
     if expected != actual {
         return Err(SolveError::DimensionMismatch { expected, actual });
     }
-    let one_sided = (0..expected).find_map(|column| {
+    // Reading the columns in order meets the entries of every row in order too: one step in each row's own list.
+    let mut next = pattern.major_offsets()[..expected].to_vec();
+    let (offsets, indices) = (pattern.major_offsets(), pattern.minor_indices());
+    for column in 0..expected {
+        for &row in pattern.lane(column) {
+            let place = next[row];
+            if place == offsets[row + 1] || indices[place] != column {
+                return Err(one_sided(pattern));
+            }
+            next[row] = place + 1;
+        }
+    }
+    Ok(())
+}
+
+/// The first entry without a mirror image.
+fn one_sided(pattern: &SparsityPattern) -> SolveError {
+    let missing = (0..pattern.major_dim()).find_map(|column| {
         let row = pattern.lane(column).iter().find(|&&row| pattern.lane(row).binary_search(&column).is_err());
         row.map(|&row| SolveError::NotSymmetric { row, column })
     });
-    one_sided.map_or(Ok(()), Err)
-}
-
-/// The pattern in the new order, and for every entry a place in the old one that holds the same value.
-fn permute(pattern: &SparsityPattern, permutation: &Permutation) -> (SparsityPattern, Vec<usize>) {
-    let n = pattern.major_dim();
-    let old_to_new = permutation.old_to_new();
-    let mut offsets = Vec::with_capacity(n + 1);
-    let mut end = 0;
-    offsets.push(end);
-    for &old in permutation.new_to_old() {
-        end += pattern.lane(old as usize).len();
-        offsets.push(end);
-    }
-    let mut next = offsets.clone();
-    let (mut rows, mut sources) = (vec![0; end], vec![0; end]);
-    // By symmetry an old column is a row as well: reading the columns as rows in the new order fills every new column in
-    // the order of its rows.
-    for (new, &old) in permutation.new_to_old().iter().enumerate() {
-        let start = pattern.major_offsets()[old as usize];
-        for (k, &other) in pattern.lane(old as usize).iter().enumerate() {
-            let place = &mut next[old_to_new[other] as usize];
-            rows[*place] = new;
-            sources[*place] = start + k;
-            *place += 1;
-        }
-    }
-    // Symmetry keeps the lengths of the columns, so the data is valid.
-    let permuted = SparsityPattern::try_from_offsets_and_indices(n, n, offsets, rows)
-        .unwrap_or_else(|_| SparsityPattern::zeros(n, n));
-    (permuted, sources)
+    missing.unwrap_or(SolveError::PatternMismatch {})
 }

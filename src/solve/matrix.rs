@@ -161,6 +161,19 @@ pub fn norm(x: &[f64]) -> f64 {
     largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt()
 }
 
+/// ‖b − A x‖₂ / ‖b‖₂ for one right-hand side; 0 where b is zero and x solves exactly.
+///
+/// # Panics
+/// Where the sizes do not fit.
+#[must_use]
+pub fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
+    let residual: Vec<f64> = product(matrix, x).iter().zip(b).map(|(ax, b)| b - ax).collect();
+    match (norm(&residual), norm(b)) {
+        (0.0, _) => 0.0,
+        (r, b) => r / b,
+    }
+}
+
 /// The rows and columns of a square matrix that `kept` lists, ascending.
 ///
 /// # Panics

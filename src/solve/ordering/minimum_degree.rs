@@ -1,47 +1,10 @@
-//! Fill-reducing orderings.
+//! Approximate minimum degree.
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use crate::error::SolveError;
-
-/// A renumbering of unknowns.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Permutation {
-    new_to_old: Vec<u32>,
-    old_to_new: Vec<u32>,
-}
-
-impl Permutation {
-    /// From the old ids in their new order.
-    ///
-    /// # Errors
-    /// `DimensionMismatch` where an id is missing or comes twice.
-    pub fn new(new_to_old: Vec<u32>) -> Result<Self, SolveError> {
-        let n = new_to_old.len();
-        let mut old_to_new = vec![u32::MAX; n];
-        for (new, &old) in new_to_old.iter().enumerate() {
-            match old_to_new.get_mut(old as usize) {
-                Some(place) if *place == u32::MAX => *place = new as u32,
-                _ => return Err(SolveError::DimensionMismatch { expected: n, actual: old as usize }),
-            }
-        }
-        Ok(Self { new_to_old, old_to_new })
-    }
-
-    /// The old id at every new place.
-    #[must_use]
-    pub fn new_to_old(&self) -> &[u32] {
-        &self.new_to_old
-    }
-
-    /// The new place of every old id.
-    #[must_use]
-    pub fn old_to_new(&self) -> &[u32] {
-        &self.old_to_new
-    }
-}
-
-const NONE: u32 = u32::MAX;
+use super::NONE;
+use super::graph::Graph;
+use super::queue::BucketQueue;
 
 /// Approximate minimum degree on the quotient graph (\[Amestoy96\]): at every step the unknown whose elimination links the
 /// fewest others, up to overlaps, goes next. Unknowns that become indistinguishable are merged, eliminated ones that
@@ -50,12 +13,25 @@ const NONE: u32 = u32::MAX;
 /// The pattern must be square and symmetric; the diagonal does not matter.
 #[must_use]
 pub fn minimum_degree(pattern: &SparsityPattern) -> Vec<u32> {
-    let n = pattern.major_dim();
-    let mut graph = QuotientGraph::new(pattern);
+    let (graph, dense) = Graph::new(pattern);
+    let mut order = order_graph(&graph);
+    // The unknowns of very high degree have lost their edges; they go to the end.
+    let mut is_dense = vec![false; order.len()];
+    for &v in &dense {
+        is_dense[v as usize] = true;
+    }
+    order.retain(|&v| !is_dense[v as usize]);
+    order.extend_from_slice(&dense);
+    order
+}
+
+/// The same for a compact graph.
+pub(super) fn order_graph(graph: &Graph) -> Vec<u32> {
+    let mut graph = QuotientGraph::new(graph);
     while let Some(pivot) = graph.queue.pop() {
         graph.eliminate(pivot);
     }
-    let mut order = Vec::with_capacity(n);
+    let mut order = Vec::with_capacity(graph.weight.len());
     let mut stack = Vec::new();
     for i in 0..graph.pivots.len() {
         stack.push(graph.pivots[i]);
@@ -90,7 +66,7 @@ struct QuotientGraph {
     /// Neighbours (variables and elements are numbered alike) of the variable that others are compared with.
     mark: Vec<u32>,
     current_mark: u32,
-    queue: DegreeQueue,
+    queue: BucketQueue,
     pivots: Vec<u32>,
     /// Unknowns that were merged into another: linked lists.
     first_merged: Vec<u32>,
@@ -100,24 +76,13 @@ struct QuotientGraph {
 }
 
 impl QuotientGraph {
-    fn new(pattern: &SparsityPattern) -> Self {
-        let n = pattern.major_dim();
-        // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
-        let dense = (10.0 * (n as f64).sqrt()).max(16.0) as usize;
-        let is_dense: Vec<bool> = (0..n).map(|v| pattern.lane(v).len() > dense).collect();
+    fn new(graph: &Graph) -> Self {
+        let n = graph.len();
+        let mut queue = BucketQueue::new(n, n + 1);
         let mut variables = Vec::with_capacity(n);
-        let mut queue = DegreeQueue::new(n);
-        for v in 0..n {
-            let neighbours: Vec<u32> = if is_dense[v] {
-                Vec::new()
-            } else {
-                pattern.lane(v).iter().filter(|&&u| u != v && !is_dense[u]).map(|&u| u as u32).collect()
-            };
-            variables.push(neighbours);
-        }
-        for v in 0..n {
-            // Dense rows wait in the last bucket.
-            queue.insert(v as u32, if is_dense[v] { n as u32 } else { variables[v].len() as u32 });
+        for v in 0..n as u32 {
+            queue.insert(v, graph.of(v).len() as u32);
+            variables.push(graph.of(v).to_vec());
         }
         Self {
             variables,
@@ -228,7 +193,7 @@ impl QuotientGraph {
         });
         self.variables[i] = variables;
         let inside = clique_weight - self.weight[i];
-        let bound = self.queue.degree(v).saturating_add(inside);
+        let bound = self.queue.key(v).saturating_add(inside);
         let degree = degree.saturating_add(inside).min(bound).min(self.left - self.weight[i]);
         self.queue.remove(v);
         self.queue.insert(v, degree);
@@ -259,7 +224,7 @@ impl QuotientGraph {
                         && self.elements[i].len() == self.elements[j].len()
                         && self.variables[j].iter().chain(&self.elements[j]).all(|&x| self.is_marked(x));
                     if same {
-                        let degree = self.queue.degree(v).saturating_sub(self.weight[j]);
+                        let degree = self.queue.key(v).saturating_sub(self.weight[j]);
                         self.weight[i] += self.weight[j];
                         self.weight[j] = 0;
                         self.queue.remove(u);
@@ -273,67 +238,5 @@ impl QuotientGraph {
                 }
             }
         }
-    }
-}
-
-/// Variables in buckets by degree: doubly linked lists, so that every operation but finding the next minimum is O(1).
-struct DegreeQueue {
-    heads: Vec<u32>,
-    next: Vec<u32>,
-    previous: Vec<u32>,
-    degrees: Vec<u32>,
-    smallest: usize,
-}
-
-impl DegreeQueue {
-    fn new(n: usize) -> Self {
-        Self {
-            heads: vec![NONE; n + 1],
-            next: vec![NONE; n],
-            previous: vec![NONE; n],
-            degrees: vec![0; n],
-            smallest: 0,
-        }
-    }
-
-    fn degree(&self, v: u32) -> u32 {
-        self.degrees[v as usize]
-    }
-
-    fn insert(&mut self, v: u32, degree: u32) {
-        let d = (degree as usize).min(self.heads.len() - 1);
-        let head = self.heads[d];
-        self.next[v as usize] = head;
-        self.previous[v as usize] = NONE;
-        if head != NONE {
-            self.previous[head as usize] = v;
-        }
-        self.heads[d] = v;
-        self.degrees[v as usize] = d as u32;
-        self.smallest = self.smallest.min(d);
-    }
-
-    fn remove(&mut self, v: u32) {
-        let (next, previous) = (self.next[v as usize], self.previous[v as usize]);
-        if next != NONE {
-            self.previous[next as usize] = previous;
-        }
-        if previous == NONE {
-            self.heads[self.degrees[v as usize] as usize] = next;
-        } else {
-            self.next[previous as usize] = next;
-        }
-    }
-
-    fn pop(&mut self) -> Option<u32> {
-        while self.smallest < self.heads.len() {
-            let head = self.heads[self.smallest];
-            if head != NONE {
-                self.remove(head);
-                return Some(head);
-            }
-            self.smallest += 1;
-        }
-        None
     }
 }

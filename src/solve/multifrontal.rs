@@ -1,0 +1,214 @@
+//! The numeric factorisation: fronts are assembled from the entries of the matrix and the updates of their children, and
+//! eliminated, children before parents (\[Duff83\], \[Liu92\]).
+
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::front::{Front, sizes, triangle};
+use super::scalar::{Scalar, Unit};
+use super::symbolic::Symbolic;
+use crate::error::SolveError;
+
+/// Units of the whole factor, and of the stack of updates at its fullest.
+pub(super) fn storage<U: Unit>(symbolic: &Symbolic) -> (u64, u64) {
+    let (mut total, mut held, mut peak) = (0_u64, 0_u64, 0_u64);
+    let mut stacks: [Vec<u64>; 2] = [Vec::new(), Vec::new()];
+    for s in 0..symbolic.fronts() {
+        let (factor, update) = sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len());
+        total += factor as u64;
+        held += update as u64;
+        peak = peak.max(held);
+        let [own, others] = sides(&mut stacks, symbolic.odd[s]);
+        own.push(update as u64);
+        for _ in 0..symbolic.children[s] {
+            held -= others.pop().unwrap_or(0);
+        }
+    }
+    (total, peak)
+}
+
+/// The side of a front, and the side of its children.
+fn sides<T>(both: &mut [T; 2], odd: bool) -> [&mut T; 2] {
+    let [even_side, odd_side] = both;
+    if odd { [odd_side, even_side] } else { [even_side, odd_side] }
+}
+
+/// What a factorisation needs besides the factor, kept for the next one.
+#[derive(Debug, Clone)]
+pub(super) struct Workspace<U: Unit> {
+    /// Updates that wait for their parents: those of fronts at an even depth from the front end, the others from the back,
+    /// so that a new update never has to be moved when its children's are let go.
+    stack: Vec<U>,
+    /// For the columns and rows of the front at hand their places in it.
+    places: Vec<u32>,
+    /// The same for the rows of one child.
+    child_places: Vec<u32>,
+    diagonal: Vec<U::Element>,
+}
+
+/// Allocates, or says how much could not be had.
+pub(super) fn reserve<T>(units: u64) -> Result<Vec<T>, SolveError> {
+    let bytes = units.saturating_mul(size_of::<T>() as u64);
+    let mut vector = Vec::new();
+    match usize::try_from(units).map(|units| vector.try_reserve_exact(units)) {
+        Ok(Ok(())) => Ok(vector),
+        _ => Err(SolveError::OutOfMemory { bytes }),
+    }
+}
+
+impl<U: Unit> Workspace<U> {
+    pub(super) fn new(symbolic: &Symbolic, stack: u64) -> Result<Self, SolveError> {
+        let mut workspace = Self {
+            stack: reserve(stack)?,
+            places: vec![0; symbolic.permutation.new_to_old().len()],
+            child_places: Vec::new(),
+            diagonal: Vec::new(),
+        };
+        workspace.stack.resize(stack as usize, U::ZERO);
+        Ok(workspace)
+    }
+
+    /// Computes the factor of the matrix with these values into `factor`, which has the capacity for it. The error is the
+    /// place of a column whose pivot was lost.
+    pub(super) fn factorize(
+        &mut self,
+        symbolic: &Symbolic,
+        pattern: &SparsityPattern,
+        values: &[<U::Element as Scalar>::Wide],
+        factor: &mut Vec<U>,
+    ) -> Result<(), usize> {
+        factor.clear();
+        // Fronts whose updates wait at either end, and where the free part of the stack begins and ends.
+        let mut waiting: [Vec<u32>; 2] = [Vec::new(), Vec::new()];
+        let mut free = [0, self.stack.len()];
+        for s in 0..symbolic.fronts() {
+            let columns = symbolic.columns(s);
+            let rows = symbolic.rows_of(s);
+            let (factor_size, update_size) = sizes::<U>(columns.len(), rows.len());
+            let factor_start = factor.len();
+            // Only now, so that the zeros are still in the cache when the front is assembled.
+            factor.resize(factor_start + factor_size, U::ZERO);
+            for (place, column) in columns.clone().enumerate() {
+                self.places[column] = place as u32;
+            }
+            for (place, &row) in rows.iter().enumerate() {
+                self.places[row as usize] = (columns.len() + place) as u32;
+            }
+            let odd = symbolic.odd[s];
+            let (update, children) = split_stack(&mut self.stack, free, update_size, odd);
+            update.fill(U::ZERO);
+            let mut front =
+                Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
+            self.diagonal.clear();
+            for column in columns.clone() {
+                let entry = assemble_column(&mut front, symbolic, pattern, values, column, &self.places);
+                self.diagonal.push(entry);
+            }
+            let [own, others] = sides(&mut waiting, odd);
+            let mut released = 0;
+            for _ in 0..symbolic.children[s] {
+                let child_rows = others.pop().map_or(&[][..], |child| symbolic.rows_of(child as usize));
+                self.child_places.clear();
+                self.child_places.extend(child_rows.iter().map(|&row| self.places[row as usize]));
+                let size = triangle::<U>(child_rows.len().div_ceil(U::LANES));
+                // The last child lies next to the free part.
+                let child = if odd {
+                    let end = children.len() - released;
+                    &children[end - size..end]
+                } else {
+                    &children[released..released + size]
+                };
+                add_child(&mut front, child, &self.child_places);
+                released += size;
+            }
+            front.eliminate(&self.diagonal).map_err(|column| columns.start + column)?;
+            own.push(s as u32);
+            if odd {
+                free[0] -= released;
+                free[1] -= update_size;
+            } else {
+                free[1] += released;
+                free[0] += update_size;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Room for an update beside the free part, at the even or odd end, and all that waits at the other end.
+fn split_stack<U>(stack: &mut [U], free: [usize; 2], size: usize, odd: bool) -> (&mut [U], &[U]) {
+    if odd {
+        let (children, rest) = stack[..free[1]].split_at_mut(free[0]);
+        let start = rest.len() - size;
+        (&mut rest[start..], children)
+    } else {
+        let (rest, children) = stack[free[0]..].split_at_mut(free[1] - free[0]);
+        (&mut rest[..size], children)
+    }
+}
+
+/// Puts the entries of one column of the matrix into the front; its diagonal entry.
+#[inline]
+fn assemble_column<U: Unit>(
+    front: &mut Front<'_, U>,
+    symbolic: &Symbolic,
+    pattern: &SparsityPattern,
+    values: &[<U::Element as Scalar>::Wide],
+    column: usize,
+    places: &[u32],
+) -> U::Element {
+    let old = symbolic.permutation.new_to_old()[column] as usize;
+    let old_to_new = symbolic.permutation.old_to_new();
+    let start = pattern.major_offsets()[old];
+    let place = places[column] as usize;
+    let below = triangle::<U>(front.columns.div_ceil(U::LANES));
+    let mut diagonal = U::Element::ZERO;
+    for (k, &other) in pattern.lane(old).iter().enumerate() {
+        let row = old_to_new[other] as usize;
+        if row < column {
+            continue;
+        }
+        let value = U::Element::narrow(values[start + k]);
+        if row == column {
+            diagonal = value;
+        }
+        let row = places[row] as usize;
+        let (unit, lane) = if row < front.columns {
+            (triangle::<U>(row / U::LANES) + place, row % U::LANES)
+        } else {
+            let row = row - front.columns;
+            (below + row / U::LANES * front.columns + place, row % U::LANES)
+        };
+        front.factor[unit].set_lane(lane, value);
+    }
+    diagonal
+}
+
+/// Adds the update of a child, whose rows have the given places in the front.
+fn add_child<U: Unit>(front: &mut Front<'_, U>, child: &[U], places: &[u32]) {
+    let columns = front.columns;
+    // The child's columns that are pivot columns here; the others belong to the update.
+    let split = places.partition_point(|&place| (place as usize) < columns);
+    let (pivots, below) = front.factor.split_at_mut(triangle::<U>(columns.div_ceil(U::LANES)));
+    for (r, &place) in places.iter().enumerate() {
+        let source = &child[triangle::<U>(r / U::LANES)..][..=r];
+        let (from, place) = (r % U::LANES, place as usize);
+        if place < columns {
+            let row = &mut pivots[triangle::<U>(place / U::LANES)..];
+            add_row(row, place % U::LANES, source, from, &places[..=r], 0);
+        } else {
+            let (tile, lane) = ((place - columns) / U::LANES, (place - columns) % U::LANES);
+            add_row(&mut below[tile * columns..], lane, &source[..split], from, &places[..split], 0);
+            let row = &mut front.update[triangle::<U>(tile)..];
+            add_row(row, lane, &source[split..], from, &places[split..=r], columns);
+        }
+    }
+}
+
+/// Adds lane `from` of each unit of `source` to lane `lane` of the units of `row` at `places` less `first`.
+#[inline(always)]
+fn add_row<U: Unit>(row: &mut [U], lane: usize, source: &[U], from: usize, places: &[u32], first: usize) {
+    for (unit, &place) in source.iter().zip(places) {
+        let target = &mut row[place as usize - first];
+        target.set_lane(lane, target.lane(lane).plus(unit.lane(from)));
+    }
+}

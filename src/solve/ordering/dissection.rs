@@ -1,0 +1,182 @@
+//! Nested dissection.
+
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::NONE;
+use super::bisection::bisect;
+use super::graph::{Graph, Groups};
+use super::leaf::LeafOrder;
+use super::minimum_degree::order_graph;
+use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
+
+/// Parts up to this size are ordered by minimum degree.
+const LEAF: usize = 300;
+/// Unknowns in a cluster.
+const CLUSTER: usize = 8;
+
+/// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
+#[must_use]
+pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
+    let _ = coordinates;
+    let (graph, dense) = Graph::new(pattern);
+    let n = graph.len();
+    let mut is_dense = vec![false; n];
+    for &v in &dense {
+        is_dense[v as usize] = true;
+    }
+    let mut order: Vec<u32> = (0..n as u32).filter(|&v| !is_dense[v as usize]).collect();
+    let (cluster_of, count) = graph.cluster(CLUSTER);
+    let clusters = graph.contract(&cluster_of, count);
+    let mut dissection = Dissection {
+        labels: vec![NONE; n],
+        refiner: Refiner::new(n),
+        leaf: LeafOrder::new(n),
+        place: vec![NONE; count],
+        local: vec![NONE; count],
+        base: 0,
+        stack: Vec::new(),
+        spare: Vec::new(),
+        graph,
+        cluster_of,
+    };
+    let end = order.len();
+    dissection.stack.push(Part { begin: 0, end, ids: (0..count as u32).collect(), clusters });
+    while let Some(part) = dissection.stack.pop() {
+        dissection.split(&mut order, part);
+    }
+    order.extend_from_slice(&dense);
+    order
+}
+
+/// Unknowns to order, contiguous in the order, and their clusters.
+struct Part {
+    begin: usize,
+    end: usize,
+    /// The clusters' ids, ...
+    ids: Vec<u32>,
+    /// ... and their graph.
+    clusters: Graph,
+}
+
+struct Dissection {
+    graph: Graph,
+    cluster_of: Vec<u32>,
+    labels: Vec<u32>,
+    refiner: Refiner,
+    leaf: LeafOrder,
+    place: Vec<u32>,
+    local: Vec<u32>,
+    base: u32,
+    stack: Vec<Part>,
+    spare: Vec<u32>,
+}
+
+impl Dissection {
+    fn split(&mut self, order: &mut [u32], part: Part) {
+        let range = part.begin..part.end;
+        let members = &mut order[range];
+        if members.len() <= LEAF {
+            self.leaf.order(&self.graph, members);
+            return;
+        }
+        for (i, &id) in part.ids.iter().enumerate() {
+            self.local[id as usize] = i as u32;
+        }
+        let component_of = components(&part.clusters);
+        let count = component_of.iter().max().map_or(0, |&last| last as usize + 1);
+        if count > 1 {
+            let groups: Vec<u32> = members
+                .iter()
+                .map(|&v| component_of[self.local[self.cluster_of[v as usize] as usize] as usize])
+                .collect();
+            self.descend(members, &part, &groups, count, count);
+            return;
+        }
+        let sides = bisect(&part.clusters, &mut self.refiner);
+        self.base += LABELS;
+        let base = self.base;
+        let mut cut = Cut::default();
+        for &v in &*members {
+            let side = sides[self.local[self.cluster_of[v as usize] as usize] as usize];
+            self.labels[v as usize] = base + side;
+            cut.weights[side as usize] += 1;
+            if side == SEPARATOR {
+                cut.separator.push(v);
+            }
+        }
+        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, 4, 1);
+        if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
+            self.order_whole(members);
+            return;
+        }
+        let groups: Vec<u32> = members.iter().map(|&v| self.labels[v as usize] - base).collect();
+        self.descend(members, &part, &groups, 3, 2);
+    }
+
+    /// Puts the groups one behind the other, and the first `parts` of them on the stack.
+    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+        self.spare.clear();
+        self.spare.extend_from_slice(members);
+        let groups = Groups::new(group_of, count);
+        for (place, &item) in members.iter_mut().zip(&groups.items) {
+            *place = self.spare[item as usize];
+        }
+        for group in 0..parts {
+            let (begin, end) = (groups.offsets[group] as usize, groups.offsets[group + 1] as usize);
+            // The clusters of a part, with what they still hold.
+            let mut kept: Vec<u32> = Vec::new();
+            let mut weights: Vec<u32> = Vec::new();
+            if end - begin > LEAF {
+                for &v in &members[begin..end] {
+                    let cluster = self.local[self.cluster_of[v as usize] as usize];
+                    let place = &mut self.place[cluster as usize];
+                    if *place == NONE {
+                        *place = kept.len() as u32;
+                        kept.push(cluster);
+                        weights.push(0);
+                    }
+                    weights[*place as usize] += 1;
+                }
+                for &cluster in &kept {
+                    self.place[cluster as usize] = NONE;
+                }
+            }
+            let clusters = part.clusters.part(&kept, weights, &mut self.place);
+            let ids = kept.iter().map(|&cluster| part.ids[cluster as usize]).collect();
+            self.stack.push(Part { begin: part.begin + begin, end: part.begin + end, ids, clusters });
+        }
+    }
+
+    /// Orders a part that has no separator.
+    fn order_whole(&mut self, members: &mut [u32]) {
+        let mut place = vec![NONE; self.graph.len()];
+        let part = self.graph.part(members, vec![1; members.len()], &mut place);
+        let old = members.to_vec();
+        for (place, &new) in members.iter_mut().zip(&order_graph(&part)) {
+            *place = old[new as usize];
+        }
+    }
+}
+
+/// The component of every vertex.
+fn components(graph: &Graph) -> Vec<u32> {
+    let mut component_of = vec![NONE; graph.len()];
+    let mut count = 0;
+    let mut stack = Vec::new();
+    for seed in 0..graph.len() as u32 {
+        if component_of[seed as usize] == NONE {
+            component_of[seed as usize] = count;
+            stack.push(seed);
+            while let Some(v) = stack.pop() {
+                for &u in graph.of(v) {
+                    if component_of[u as usize] == NONE {
+                        component_of[u as usize] = count;
+                        stack.push(u);
+                    }
+                }
+            }
+            count += 1;
+        }
+    }
+    component_of
+}

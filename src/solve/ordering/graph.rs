@@ -1,0 +1,249 @@
+//! Graphs in compressed rows, and how they get smaller.
+
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::NONE;
+
+/// An undirected graph without loops, every edge stored at both ends.
+pub(super) struct Graph {
+    pub(super) offsets: Vec<u32>,
+    pub(super) neighbours: Vec<u32>,
+    /// How many unknowns a vertex stands for.
+    pub(super) weights: Vec<u32>,
+    /// How many edges of the finest graph an edge stands for; empty where all are one.
+    pub(super) edge_weights: Vec<u32>,
+}
+
+impl Graph {
+    /// The graph of a square symmetric pattern, and the unknowns of very high degree, which it leaves without edges.
+    pub(super) fn new(pattern: &SparsityPattern) -> (Self, Vec<u32>) {
+        let n = pattern.major_dim();
+        // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
+        let most = (10.0 * (n as f64).sqrt()).max(16.0) as usize;
+        let mut dense: Vec<u32> = (0..n as u32).filter(|&v| pattern.lane(v as usize).len() > most).collect();
+        dense.sort_by_key(|&v| pattern.lane(v as usize).len());
+        let mut is_dense = vec![false; n];
+        for &v in &dense {
+            is_dense[v as usize] = true;
+        }
+        let mut offsets = Vec::with_capacity(n + 1);
+        let mut neighbours = Vec::with_capacity(pattern.nnz());
+        offsets.push(0);
+        for v in 0..n {
+            if !is_dense[v] {
+                for &u in pattern.lane(v) {
+                    if u != v && u < n && !is_dense[u] {
+                        neighbours.push(u as u32);
+                    }
+                }
+            }
+            offsets.push(neighbours.len() as u32);
+        }
+        (Self { offsets, neighbours, weights: vec![1; n], edge_weights: Vec::new() }, dense)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.weights.len()
+    }
+
+    pub(super) fn range(&self, v: u32) -> core::ops::Range<usize> {
+        self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize
+    }
+
+    pub(super) fn of(&self, v: u32) -> &[u32] {
+        &self.neighbours[self.range(v)]
+    }
+
+    pub(super) fn edge_weight(&self, edge: usize) -> u32 {
+        self.edge_weights.get(edge).copied().unwrap_or(1)
+    }
+
+    /// The graph whose vertices are `count` clusters of this one's.
+    pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
+        let members = Groups::new(cluster_of, count);
+        let mut offsets = Vec::with_capacity(count + 1);
+        let mut neighbours: Vec<u32> = Vec::new();
+        let mut edge_weights: Vec<u32> = Vec::new();
+        let mut weights = vec![0; count];
+        // Where the edge to a cluster is, if it is behind `begin`.
+        let mut place = vec![0_u32; count];
+        offsets.push(0);
+        for cluster in 0..count {
+            let begin = neighbours.len();
+            for &v in members.of(cluster) {
+                weights[cluster] += self.weights[v as usize];
+                for edge in self.range(v) {
+                    let other = cluster_of[self.neighbours[edge] as usize] as usize;
+                    if other == cluster {
+                        continue;
+                    }
+                    let weight = self.edge_weight(edge);
+                    let at = place[other] as usize;
+                    if at >= begin && at < neighbours.len() && neighbours[at] == other as u32 {
+                        edge_weights[at] += weight;
+                    } else {
+                        place[other] = neighbours.len() as u32;
+                        neighbours.push(other as u32);
+                        edge_weights.push(weight);
+                    }
+                }
+            }
+            offsets.push(neighbours.len() as u32);
+        }
+        Self { offsets, neighbours, weights, edge_weights }
+    }
+
+    /// The graph of some of the vertices, in the given order with the given weights. `place` is scratch for every vertex, all `NONE`.
+    pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Self {
+        for (new, &old) in members.iter().enumerate() {
+            place[old as usize] = new as u32;
+        }
+        let mut offsets = Vec::with_capacity(members.len() + 1);
+        let mut neighbours = Vec::new();
+        let mut edge_weights = Vec::new();
+        offsets.push(0);
+        for &old in members {
+            for edge in self.range(old) {
+                let new = place[self.neighbours[edge] as usize];
+                if new != NONE {
+                    neighbours.push(new);
+                    if !self.edge_weights.is_empty() {
+                        edge_weights.push(self.edge_weights[edge]);
+                    }
+                }
+            }
+            offsets.push(neighbours.len() as u32);
+        }
+        for &old in members {
+            place[old as usize] = NONE;
+        }
+        Self { offsets, neighbours, weights, edge_weights }
+    }
+
+    /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns
+    /// the cluster of every vertex and the number of clusters.
+    pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
+        let n = self.len();
+        let mut cluster_of = vec![NONE; n];
+        let mut sizes: Vec<u32> = Vec::new();
+        let mut mark = vec![NONE; n];
+        let mut free: Vec<u64> = Vec::new();
+        for whole in [true, false] {
+            for v in 0..n as u32 {
+                if cluster_of[v as usize] != NONE {
+                    continue;
+                }
+                free.clear();
+                free.extend(self.of(v).iter().filter(|&&u| cluster_of[u as usize] == NONE).map(|&u| u64::from(u)));
+                let wanted = self.of(v).len().min(most - 1);
+                if whole && free.len() < wanted {
+                    continue;
+                }
+                if !whole && free.len() < wanted / 2 && self.join(v, 2 * most as u32, &mut cluster_of, &mut sizes) {
+                    continue;
+                }
+                if free.len() > most - 1 {
+                    for &u in self.of(v) {
+                        mark[u as usize] = v;
+                    }
+                    // Fewest strangers first.
+                    for entry in &mut free {
+                        let strangers = self.of(*entry as u32).iter().filter(|&&t| mark[t as usize] != v).count();
+                        *entry |= (strangers as u64) << 32;
+                    }
+                    free.sort_unstable();
+                    free.truncate(most - 1);
+                }
+                let cluster = sizes.len() as u32;
+                cluster_of[v as usize] = cluster;
+                for &u in &free {
+                    cluster_of[u as u32 as usize] = cluster;
+                }
+                sizes.push(1 + free.len() as u32);
+            }
+        }
+        let count = sizes.len();
+        (cluster_of, count)
+    }
+
+    /// Adds a vertex to the neighbouring cluster with the most of its neighbours among those that are not full.
+    fn join(&self, v: u32, most: u32, cluster_of: &mut [u32], sizes: &mut [u32]) -> bool {
+        // The few clusters around v, with their counts.
+        let mut around = [(NONE, 0_u32); 8];
+        for &u in self.of(v) {
+            let cluster = cluster_of[u as usize];
+            if cluster != NONE && sizes[cluster as usize] < most {
+                if let Some(entry) = around.iter_mut().find(|entry| entry.0 == cluster || entry.0 == NONE) {
+                    *entry = (cluster, entry.1 + 1);
+                }
+            }
+        }
+        let mut best = around[0];
+        for &entry in &around[1..] {
+            if entry.1 > best.1 {
+                best = entry;
+            }
+        }
+        if best.0 != NONE {
+            cluster_of[v as usize] = best.0;
+            sizes[best.0 as usize] += 1;
+        }
+        best.0 != NONE
+    }
+
+    /// Pairs of vertices joined by their heaviest edges, none heavier than `most`, as clusters.
+    pub(super) fn pairs(&self, most: u32) -> (Vec<u32>, usize) {
+        let n = self.len();
+        let mut cluster_of = vec![NONE; n];
+        let mut count = 0;
+        for v in 0..n as u32 {
+            if cluster_of[v as usize] != NONE {
+                continue;
+            }
+            let (mut best, mut heaviest, mut lightest) = (v, 0, 0);
+            for edge in self.range(v) {
+                let u = self.neighbours[edge];
+                let (weight, mass) = (self.edge_weight(edge), self.weights[u as usize]);
+                let better = weight > heaviest || weight == heaviest && mass < lightest;
+                if cluster_of[u as usize] == NONE && better && self.weights[v as usize] + mass <= most {
+                    (best, heaviest, lightest) = (u, weight, mass);
+                }
+            }
+            cluster_of[v as usize] = count;
+            cluster_of[best as usize] = count;
+            count += 1;
+        }
+        (cluster_of, count as usize)
+    }
+}
+
+/// Items by group.
+pub(super) struct Groups {
+    pub(super) offsets: Vec<u32>,
+    pub(super) items: Vec<u32>,
+}
+
+impl Groups {
+    /// A counting sort that keeps the order within a group.
+    pub(super) fn new(group_of: &[u32], count: usize) -> Self {
+        let mut offsets = vec![0_u32; count + 1];
+        for &group in group_of {
+            offsets[group as usize] += 1;
+        }
+        let mut sum = 0;
+        for offset in &mut offsets {
+            sum += *offset;
+            *offset = sum;
+        }
+        let mut items = vec![0; group_of.len()];
+        for (item, &group) in group_of.iter().enumerate().rev() {
+            offsets[group as usize] -= 1;
+            items[offsets[group as usize] as usize] = item as u32;
+        }
+        Self { offsets, items }
+    }
+
+    pub(super) fn of(&self, group: usize) -> &[u32] {
+        &self.items[self.offsets[group] as usize..self.offsets[group + 1] as usize]
+    }
+}
