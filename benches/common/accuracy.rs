@@ -40,7 +40,7 @@ impl Accuracy {
     pub(crate) fn new(mesh: TriMesh) -> Self {
         let laplacian = cotan_laplacian(&mesh);
         let analyze = |matrix: &CscMatrix<f64>| {
-            Analysis::new(matrix.pattern(), &order(matrix.pattern(), mesh.positions()))
+            Analysis::new(matrix.pattern().clone(), &order(matrix.pattern(), mesh.positions()))
         };
         let squared = gram(&laplacian).expect("it fits");
         let analysis = analyze(&squared);

@@ -1,6 +1,7 @@
 //! The solver of morse-smooth: the only file here that knows its interface.
 
-use morse_smooth::solve::{CholeskyAnalysis, CholeskyFactor, Permutation, minimum_degree};
+use morse_smooth::solve::{CholeskyAnalysis, CholeskyFactor, Permutation, nested_dissection};
+use nalgebra::Complex;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::systems::Values;
@@ -12,16 +13,20 @@ pub(crate) enum Precision {
 }
 
 /// The old ids in the new order.
-pub(crate) fn order(pattern: &SparsityPattern, _positions: &[f64]) -> Vec<u32> {
-    minimum_degree(pattern)
+pub(crate) fn order(pattern: &SparsityPattern, positions: &[f64]) -> Vec<u32> {
+    nested_dissection(pattern, Some(positions))
 }
 
 pub(crate) struct Analysis(CholeskyAnalysis);
 
 impl Analysis {
-    pub(crate) fn new(pattern: &SparsityPattern, order: &[u32]) -> Self {
+    pub(crate) fn new(pattern: SparsityPattern, order: &[u32]) -> Self {
         let permutation = Permutation::new(order.to_vec()).expect("a permutation");
-        Self(CholeskyAnalysis::with_permutation(pattern, permutation).expect("a symmetric pattern"))
+        Self(CholeskyAnalysis::with_permutation(pattern, &permutation).expect("a symmetric pattern"))
+    }
+
+    pub(crate) fn pattern(&self) -> &SparsityPattern {
+        self.0.pattern()
     }
 
     /// Entries of the factor, without zeros that a method stores for its convenience.
@@ -31,24 +36,44 @@ impl Analysis {
 
     /// None where there is no such factorisation.
     pub(crate) fn factor(&self, values: &Values, precision: Precision) -> Option<Factor> {
-        match (values, precision) {
-            (Values::Real(values), Precision::Double) => {
-                Some(Factor(self.0.factor(values).expect("positive definite")))
-            }
-            _ => None,
-        }
+        let factor = match (values, precision) {
+            (Values::Real(values), Precision::Double) => self.0.factor(values).map(Factor::Real),
+            (Values::Real(values), Precision::Single) => self.0.factor(values).map(Factor::RealSingle),
+            (Values::Complex(values), Precision::Double) => self.0.factor(values).map(Factor::Complex),
+            (Values::Complex(values), Precision::Single) => self.0.factor(values).map(Factor::ComplexSingle),
+        };
+        factor.ok()
     }
 }
 
-pub(crate) struct Factor(CholeskyFactor);
+pub(crate) enum Factor {
+    Real(CholeskyFactor<f64>),
+    RealSingle(CholeskyFactor<f32>),
+    Complex(CholeskyFactor<Complex<f64>>),
+    ComplexSingle(CholeskyFactor<Complex<f32>>),
+}
 
 impl Factor {
     pub(crate) fn refactor(&mut self, values: &Values) {
-        self.0.refactor(values.real()).expect("positive definite");
+        let outcome = match (self, values) {
+            (Self::Real(factor), Values::Real(values)) => factor.refactor(values),
+            (Self::RealSingle(factor), Values::Real(values)) => factor.refactor(values),
+            (Self::Complex(factor), Values::Complex(values)) => factor.refactor(values),
+            (Self::ComplexSingle(factor), Values::Complex(values)) => factor.refactor(values),
+            _ => panic!("values of the factor's kind"),
+        };
+        outcome.expect("positive definite");
     }
 
     /// For right-hand sides one after the other.
     pub(crate) fn solve(&self, right_hand_sides: &Values) -> Values {
-        Values::Real(self.0.solve(right_hand_sides.real()).expect("right-hand sides that fit"))
+        let solution = match (self, right_hand_sides) {
+            (Self::Real(factor), Values::Real(b)) => factor.solve(b).map(Values::Real),
+            (Self::RealSingle(factor), Values::Real(b)) => factor.solve(b).map(Values::Real),
+            (Self::Complex(factor), Values::Complex(b)) => factor.solve(b).map(Values::Complex),
+            (Self::ComplexSingle(factor), Values::Complex(b)) => factor.solve(b).map(Values::Complex),
+            _ => panic!("right-hand sides of the factor's kind"),
+        };
+        solution.expect("right-hand sides that fit")
     }
 }

@@ -40,19 +40,15 @@ export async function run({ wasm, mesh, size, systems, rounds, clock, withCsc, c
 function ours(time, facts, system, instance, isReal) {
   time('ours/order', () => instance.ours_order());
   facts[`${system}/ours/nonzeros`] = time('ours/analyse', () => instance.ours_analyze());
-  let isThere = time('ours/factor', () => instance.ours_factor(64));
-  facts[`${system}/ours`] = isThere === 1;
-  if (isThere) {
-    time('ours/solve1', () => instance.ours_solve(1));
-    time('ours/solve8', () => instance.ours_solve(8));
-    time('ours/refactor', () => instance.ours_refactor());
+  for (const [name, bits] of [
+    ['ours', 64],
+    ['ours-single', 32],
+  ]) {
+    time(`${name}/factor`, () => instance.ours_factor(bits));
+    time(`${name}/solve1`, () => instance.ours_solve(1));
+    time(`${name}/solve8`, () => instance.ours_solve(8));
+    time(`${name}/refactor`, () => instance.ours_refactor());
   }
-  isThere = time('ours-single/factor', () => instance.ours_factor(32));
-  facts[`${system}/ours-single`] = isThere === 1;
-  if (!isThere) return;
-  time('ours-single/solve1', () => instance.ours_solve(1));
-  time('ours-single/solve8', () => instance.ours_solve(8));
-  time('ours-single/refactor', () => instance.ours_refactor());
   if (isReal) return;
   for (const epsilon of SHIFTS) {
     instance.system(system, epsilon);
