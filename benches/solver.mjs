@@ -95,7 +95,10 @@ async function memory({ memorySizes, systems }, common) {
   for (const vertices of memorySizes) {
     for (const [system, bits] of MEMORY_CASES.filter(([system]) => systems.includes(system))) {
       const parameters = { mesh: 'torus', size: vertices, system, bits };
-      const result = await measure(`${size(vertices)}, ${system}, ${bits} bits`, 'memory', { ...common, ...parameters });
+      const result = await measure(`${size(vertices)}, ${system}, ${bits} bits`, 'memory', {
+        ...common,
+        ...parameters,
+      });
       runs.push({ vertices, system, bits, result });
     }
   }

@@ -13,7 +13,8 @@ await main(async () => {
     .filter((entry) => entry.isFile() && entry.name.endsWith('.mjs'))
     .map(({ name }) => name.slice(0, -'.mjs'.length))
     .sort();
-  if (wanted && !all.includes(wanted)) throw new Problem(`There is no benchmark ${wanted}; there are ${all.join(', ')}.`);
+  if (wanted && !all.includes(wanted))
+    throw new Problem(`There is no benchmark ${wanted}; there are ${all.join(', ')}.`);
   await setUp();
   await build();
   for (const name of all.filter((name) => !wanted || name === wanted)) {

@@ -49,7 +49,7 @@ impl Accuracy {
     }
 
     /// Relative errors of the solution of (LᵀL + εB)x = εBf by a real factor, after 0, 1, … steps of refinement with the
-    /// residual εB(f − x) − Lᵀ(Lx). None where there is no such factorisation.
+    /// residual εB(f − x) − Lᵀ(Lx). None where the matrix is not positive definite to that precision.
     pub(crate) fn real(&self, metric: Metric, epsilon: f64, precision: Precision) -> Option<Vec<f64>> {
         let (gram, analysis) = &self.squared;
         let mass = match metric {
@@ -85,7 +85,7 @@ impl Accuracy {
     }
 
     /// Relative errors of x = −s Im((L + isM)⁻¹Mf), s = √ε, M lumped, after 0, 1, … steps of refinement with the residual of
-    /// the complex system; then steps and error of [`refined`]. None where there is no such factorisation.
+    /// the complex system; then steps and error of [`refined`]. None where the matrix is not positive definite to that precision.
     pub(crate) fn complex(&self, epsilon: f64, precision: Precision) -> Option<Vec<f64>> {
         let mass = lumped_mass_diagonal(&self.mesh, MassScale::MeanOne).expect("a mesh with area");
         let shift = epsilon.sqrt();
@@ -178,11 +178,7 @@ fn correct(
 
 /// Solves by a factor, with residuals and solution in twice the precision, until nothing changes; not a number where that does
 /// not come about.
-fn reference(
-    n: usize,
-    residual: impl Fn(&[Extended]) -> Vec<f64>,
-    solve: impl Fn(Vec<f64>) -> Vec<f64>,
-) -> Vec<f64> {
+fn reference(n: usize, residual: impl Fn(&[Extended]) -> Vec<f64>, solve: impl Fn(Vec<f64>) -> Vec<f64>) -> Vec<f64> {
     let mut x = vec![Extended::default(); n];
     for _ in 0..100 {
         let correction = solve(residual(&x));

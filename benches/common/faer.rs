@@ -59,8 +59,8 @@ impl Faer {
             Some(permutation) => SymmetricOrdering::Custom(permutation.as_ref()),
             None => SymmetricOrdering::Amd,
         };
-        let symbolic = factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, ordering, parameters)
-            .expect("enough memory");
+        let symbolic =
+            factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, ordering, parameters).expect("enough memory");
         Self { pattern, values, symbolic, factor: Vec::new() }
     }
 

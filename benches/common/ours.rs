@@ -1,5 +1,6 @@
 //! The solver of morse-smooth: the only file here that knows its interface.
 
+use morse_smooth::error::SolveError;
 use morse_smooth::solve::{CholeskyAnalysis, CholeskyFactor, Permutation, nested_dissection};
 use nalgebra::Complex;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -34,7 +35,7 @@ impl Analysis {
         self.0.size().nonzeros as f64
     }
 
-    /// None where there is no such factorisation.
+    /// None where the matrix is not positive definite to that precision.
     pub(crate) fn factor(&self, values: &Values, precision: Precision) -> Option<Factor> {
         let factor = match (values, precision) {
             (Values::Real(values), Precision::Double) => self.0.factor(values).map(Factor::Real),
@@ -42,7 +43,11 @@ impl Analysis {
             (Values::Complex(values), Precision::Double) => self.0.factor(values).map(Factor::Complex),
             (Values::Complex(values), Precision::Single) => self.0.factor(values).map(Factor::ComplexSingle),
         };
-        factor.ok()
+        match factor {
+            Ok(factor) => Some(factor),
+            Err(SolveError::NotPositiveDefinite { .. }) => None,
+            Err(error) => panic!("{error}"),
+        }
     }
 }
 

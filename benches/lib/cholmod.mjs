@@ -24,7 +24,10 @@ export function writeSystem(path, { offsets, rows, values, rightHandSides }) {
   const header = Uint32Array.of(unknowns, rows.length, rightHandSides.length / unknowns, 0);
   const padding = new Uint32Array((offsets.length + rows.length) % 2);
   const parts = [header, offsets, rows, padding, values, rightHandSides];
-  writeFileSync(path, Buffer.concat(parts.map((part) => new Uint8Array(part.buffer, part.byteOffset, part.byteLength))));
+  writeFileSync(
+    path,
+    Buffer.concat(parts.map((part) => new Uint8Array(part.buffer, part.byteOffset, part.byteLength))),
+  );
 }
 
 /** Analyses, factorises and solves once: times in seconds, and the factor's entries. */

@@ -9,7 +9,9 @@ export async function run({ wasm, mesh, size, system, bits, clock }) {
   const before = instance.bytes();
   watch.time('order', () => instance.ours_order());
   const nonzeros = watch.time('analyse', () => instance.ours_analyze());
-  if (watch.time('factor', () => instance.ours_factor(bits)) === 0) return { missing: true };
+  if (watch.time('factor', () => instance.ours_factor(bits)) === 0) {
+    throw new Error('not positive definite to that precision');
+  }
   const sum = watch.time('solve1', () => instance.ours_solve(1));
   if (!Number.isFinite(sum)) throw new Error('the solution is not finite');
   // Memory of WebAssembly never shrinks: its size at the end is its peak.

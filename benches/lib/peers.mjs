@@ -28,8 +28,7 @@ export async function buildPeers() {
 /** A fresh instance with a mesh of about `size` vertices: the module's functions, and what turns names into its numbers. */
 export async function instantiate(path, mesh, size) {
   let memory = null;
-  const report = (text, length) =>
-    console.error(new TextDecoder().decode(new Uint8Array(memory.buffer, text, length)));
+  const report = (text, length) => console.error(new TextDecoder().decode(new Uint8Array(memory.buffer, text, length)));
   const { instance } = await WebAssembly.instantiate(readFileSync(path), { env: { report } });
   const exported = instance.exports;
   memory = exported.memory;

@@ -29,8 +29,7 @@ export function printSpeed({ samples, facts }, systems) {
     for (const [solver, name] of Object.entries(SOLVERS)) {
       const time = (stage) => number(median(samples[`${system}/${solver}/${stage}`]));
       const nonzeros = facts[`${system}/${solver}/nonzeros`];
-      if (facts[`${system}/${solver}`] === false) rows.push([`  ${name}: not there`, '', '', '', '', '', '', '']);
-      else if (samples[`${system}/${solver}/factor`]) {
+      if (samples[`${system}/${solver}/factor`]) {
         const stages = ['order', 'analyse', 'factor', 'refactor', 'solve1', 'solve8'].map(time);
         rows.push([`  ${name}`, ...stages, millions(nonzeros)]);
       }
@@ -70,7 +69,7 @@ export function printMemory(runs) {
   for (const { vertices, system, bits, result } of runs) {
     const name = `${size(vertices)} ${system} ${bits === 64 ? 'double' : 'single'}`;
     const { samples, facts } = result;
-    if (!samples) rows.push([`${name}: ${result.failure ?? 'not there'}`, '', '', '', '', '', '', '']);
+    if (!samples) rows.push([`${name}: ${result.failure}`, '', '', '', '', '', '', '']);
     else {
       const times = ['order', 'analyse', 'factor', 'solve1'].map((stage) => number(median(samples[stage])));
       const megabytes = [facts.before, facts.peak].map((bytes) => (bytes / 1e6).toFixed(0));

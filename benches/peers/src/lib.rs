@@ -123,7 +123,7 @@ extern "C" fn ours_analyze() -> f64 {
     })
 }
 
-/// Returns 0 where the solver has no such factorisation.
+/// Returns 0 where the matrix is not positive definite to that precision.
 #[unsafe(no_mangle)]
 extern "C" fn ours_factor(bits: u32) -> f64 {
     session(|session| {
@@ -226,7 +226,8 @@ extern "C" fn accuracy_start() {
     session(|session| session.accuracy = Some(Accuracy::new(session.mesh.clone().expect("a mesh comes first"))));
 }
 
-/// Puts errors into the results (array 6) and returns their number, 0 where there is no such factorisation.
+/// Puts errors into the results (array 6) and returns their number, 0 where the matrix is not positive
+/// definite to the precision.
 #[unsafe(no_mangle)]
 extern "C" fn accuracy_real(metric: usize, epsilon: f64, bits: u32) -> usize {
     session(|session| {
