@@ -11,10 +11,13 @@ import { setUp } from './setup.mjs';
 const node = process.execPath;
 const prettier = inRoot('node_modules', 'prettier', 'bin', 'prettier.cjs');
 const tsc = inRoot('node_modules', 'typescript', 'bin', 'tsc');
+const PEERS = inRoot('benches', 'peers', 'src', 'lib.rs');
 const WASM = ['--target', 'wasm32-unknown-unknown', '--features', 'wasm'];
 
 export const lints = [
   { name: 'cargo fmt', command: 'cargo', parameters: ['fmt', '--check'] },
+  // No part of the package, so `cargo fmt` passes it by.
+  { name: 'rustfmt, benches/peers', command: 'rustfmt', parameters: ['--edition', '2024', '--check', PEERS] },
   { name: 'cargo clippy', command: 'cargo', parameters: clippy('--all-targets') },
   { name: 'cargo clippy, wasm32', command: 'cargo', parameters: clippy(...WASM) },
   { name: 'prettier', command: node, parameters: [prettier, '--check', '--log-level=warn', '.'] },
@@ -38,6 +41,7 @@ export function checkLinters() {
 
 async function fix() {
   await must('cargo', ['fmt'], 'cargo fmt failed.', { show: true });
+  await must('rustfmt', ['--edition', '2024', PEERS], 'rustfmt failed.', { show: true });
   await must(node, [prettier, '--write', '--log-level=warn', '.'], 'prettier failed.', { show: true });
 }
 
