@@ -60,6 +60,7 @@ impl<U: Unit> Front<'_, U> {
 }
 
 /// Subtracts the products of the columns before `start` from the columns `start..end`, in all rows from `start` on.
+#[inline(never)]
 fn update_panel<U: Unit>(pivots: &mut [U], below: &mut [U], columns: usize, start: usize, end: usize) {
     let tiles = start / U::LANES..end.div_ceil(U::LANES);
     for depth in (0..start).step_by(DEPTH) {
@@ -83,6 +84,7 @@ fn update_panel<U: Unit>(pivots: &mut [U], below: &mut [U], columns: usize, star
 }
 
 /// Eliminates the columns `start..end` of the pivot rows.
+#[inline(never)]
 fn eliminate_panel<U: Unit>(
     pivots: &mut [U],
     columns: usize,
@@ -106,7 +108,7 @@ fn eliminate_panel<U: Unit>(
 }
 
 /// Solves for the entries of one tile of rows in the columns `start..end`, whose pivot rows are done.
-#[inline]
+#[inline(never)]
 fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
     let mut column = start;
     while column < end {
@@ -128,6 +130,7 @@ fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
 }
 
 /// The Cholesky factor of a diagonal tile, whose upper part comes out zero; as many columns as there are diagonal entries.
+#[inline(never)]
 fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: &[U::Element]) -> Result<(), usize> {
     for c in 0..diagonal.len() {
         let root = tile[c].lane(c).root(diagonal[c]).ok_or(c)?;
@@ -146,6 +149,7 @@ fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: &[U::Element]) -> Result<()
 }
 
 /// Subtracts the products of all pivot columns from the update.
+#[inline(never)]
 fn update_rest<U: Unit>(update: &mut [U], below: &[U], columns: usize) {
     let rows: usize = below.len() / columns.max(1);
     let breadth = BREADTH / U::LANES;

@@ -87,7 +87,7 @@ impl<U: Unit> Workspace<U> {
             let (factor_size, update_size) = sizes::<U>(columns.len(), rows.len());
             let factor_start = factor.len();
             // Only now, so that the zeros are still in the cache when the front is assembled.
-            factor.resize(factor_start + factor_size, U::ZERO);
+            grow(factor, factor_size);
             for (place, column) in columns.clone().enumerate() {
                 self.places[column] = place as u32;
             }
@@ -96,7 +96,7 @@ impl<U: Unit> Workspace<U> {
             }
             let odd = symbolic.odd[s];
             let (update, children) = split_stack(&mut self.stack, free, update_size, odd);
-            update.fill(U::ZERO);
+            clear(update);
             let mut front = Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
             self.diagonal.clear();
             for column in columns.clone() {
@@ -134,6 +134,19 @@ impl<U: Unit> Workspace<U> {
     }
 }
 
+// Engines compile a function better once it has been called often. What takes time is therefore kept out of the one
+// function that is called once and runs long.
+
+#[inline(never)]
+fn grow<U: Unit>(factor: &mut Vec<U>, size: usize) {
+    factor.resize(factor.len() + size, U::ZERO);
+}
+
+#[inline(never)]
+fn clear<U: Unit>(units: &mut [U]) {
+    units.fill(U::ZERO);
+}
+
 /// Room for an update beside the free part, at the even or odd end, and all that waits at the other end.
 fn split_stack<U>(stack: &mut [U], free: [usize; 2], size: usize, odd: bool) -> (&mut [U], &[U]) {
     if odd {
@@ -147,7 +160,7 @@ fn split_stack<U>(stack: &mut [U], free: [usize; 2], size: usize, odd: bool) -> 
 }
 
 /// Puts the entries of one column of the matrix into the front; its diagonal entry.
-#[inline]
+#[inline(never)]
 fn assemble_column<U: Unit>(
     front: &mut Front<'_, U>,
     symbolic: &Symbolic,
@@ -184,6 +197,7 @@ fn assemble_column<U: Unit>(
 }
 
 /// Adds the update of a child, whose rows have the given places in the front.
+#[inline(never)]
 fn add_child<U: Unit>(front: &mut Front<'_, U>, child: &[U], places: &[u32]) {
     let columns = front.columns;
     // The child's columns that are pivot columns here; the others belong to the update.

@@ -5,8 +5,12 @@ use super::graph::Graph;
 use super::refine::{LEFT, RIGHT};
 
 /// Graphs below this size are cut directly.
-fn coarsest_size() -> usize { super::tune("COARSEST", 80.) as usize }
-fn tries() -> usize { super::tune("TRIES", 4.) as usize }
+fn coarsest_size() -> usize {
+    super::tune("COARSEST", 80.) as usize
+}
+fn tries() -> usize {
+    super::tune("TRIES", 4.) as usize
+}
 
 /// Cuts a connected graph in two: the side of every vertex.
 pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
@@ -17,7 +21,9 @@ pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
     let mut best = bisect_once(graph, refiner, [1, 7919, 104_729, 1_299_709, 15_485_863][s0 % 5], s0);
     for variant in 1..tries {
         let other = bisect_once(graph, refiner, [1, 7919, 104_729, 1_299_709, 15_485_863][(variant + s0) % 5], variant);
-        if other.1.cost(all) < best.1.cost(all) { best = other; }
+        if other.1.cost(all) < best.1.cost(all) {
+            best = other;
+        }
     }
     best.0
 }
@@ -43,7 +49,7 @@ fn bisect_once(graph: &Graph, refiner: &mut EdgeRefiner, stride: usize, variant:
     for i in (0..levels.len()).rev() {
         let finer = if i == 0 { graph } else { &levels[i - 1].0 };
         labels = levels[i].1.iter().map(|&cluster| labels[cluster as usize]).collect();
-        refiner.refine(finer, &mut labels, &mut cut, super::tune("CP",3.) as usize);
+        refiner.refine(finer, &mut labels, &mut cut, super::tune("CP", 3.) as usize);
     }
     (labels, cut)
 }

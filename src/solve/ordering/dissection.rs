@@ -4,21 +4,26 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 use super::bisection::bisect;
+use super::edge_cut::EdgeRefiner;
 use super::flow::Flow;
 use super::graph::{Graph, Groups};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
-use super::edge_cut::EdgeRefiner;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 
 /// Parts up to this size are ordered by minimum degree.
-fn leaf() -> usize { super::tune("LEAF", 120.) as usize }
+fn leaf() -> usize {
+    super::tune("LEAF", 120.) as usize
+}
 /// Unknowns in a cluster.
-fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
+fn clus() -> usize {
+    super::tune("CLUSTER", 8.) as usize
+}
 
 /// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
 #[must_use]
-#[inline(never)] pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
+#[inline(never)]
+pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
     let _ = coordinates;
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
@@ -78,7 +83,8 @@ struct Dissection {
 }
 
 impl Dissection {
-    #[inline(never)] fn split(&mut self, order: &mut [u32], part: Part) {
+    #[inline(never)]
+    fn split(&mut self, order: &mut [u32], part: Part) {
         let range = part.begin..part.end;
         let members = &mut order[range];
         if members.len() <= leaf() {
@@ -128,14 +134,26 @@ impl Dissection {
         }
         sides.clear();
         let before = cut.weights;
-        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP",4.) as usize, 1);
+        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP", 4.) as usize, 1);
         let mid = cut.weights;
         if members.len() as f64 > super::tune("FLOWM", 3000.) {
             self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, super::tune("DEPTH", 3.) as usize);
             let fp2 = super::tune("FP2", 0.) as usize;
-            if fp2 > 0 { self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1); }
+            if fp2 > 0 {
+                self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1);
+            }
         }
-        if super::tune("SHOW", 1e9) < members.len() as f64 { std::eprintln!("{} {} before {:?} mid {:?} after {:?} rel {:.3}", members.len(), part.ids.len(), before, mid, cut.weights, cut.weights[2] as f64 / (members.len() as f64).sqrt()); }
+        if super::tune("SHOW", 1e9) < members.len() as f64 {
+            std::eprintln!(
+                "{} {} before {:?} mid {:?} after {:?} rel {:.3}",
+                members.len(),
+                part.ids.len(),
+                before,
+                mid,
+                cut.weights,
+                cut.weights[2] as f64 / (members.len() as f64).sqrt()
+            );
+        }
         if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
             self.order_whole(members);
             return;
@@ -145,7 +163,8 @@ impl Dissection {
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    #[inline(never)] fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+    #[inline(never)]
+    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
         let groups = Groups::new(group_of, count);

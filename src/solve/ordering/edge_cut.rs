@@ -45,7 +45,8 @@ impl EdgeRefiner {
         }
     }
 
-    #[inline(never)] pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
+    #[inline(never)]
+    pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
         let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
         let unit = (all / (16 * graph.len() as i64)).max(1);
         let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
@@ -59,7 +60,15 @@ impl EdgeRefiner {
     }
 
     #[inline(never)]
-    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: i64, all: f64, boundary: &mut Vec<u32>) {
+    fn run(
+        &mut self,
+        graph: &Graph,
+        labels: &mut [u32],
+        cut: &mut EdgeCut,
+        unit: i64,
+        all: f64,
+        boundary: &mut Vec<u32>,
+    ) {
         self.pass += 1;
         self.log.clear();
         self.pass += 1;
@@ -77,7 +86,8 @@ impl EdgeRefiner {
         }
         let mut best = cut.cost(all);
         let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
-        let patience = ((count as f64 * super::tune("EPS", 0.5)) as usize).clamp(super::tune("EPMIN",30.) as usize, super::tune("EPMAX",200.) as usize);
+        let patience = ((count as f64 * super::tune("EPS", 0.5)) as usize)
+            .clamp(super::tune("EPMIN", 30.) as usize, super::tune("EPMAX", 200.) as usize);
         while stall < patience {
             let Some(v) = self.choose(cut) else { break };
             let from = labels[v as usize];

@@ -79,7 +79,8 @@ impl Flow {
         }
     }
 
-    #[inline(never)] fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
+    #[inline(never)]
+    fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
         self.band.clear();
         self.band.extend_from_slice(&cut.separator);
         for (i, &v) in self.band.iter().enumerate() {

@@ -15,10 +15,17 @@ pub(super) struct LeafOrder {
 
 impl LeafOrder {
     pub(super) fn new(n: usize) -> Self {
-        Self { bits: vec![NONE; n], rows: Vec::new(), degrees: Vec::new(), around: Vec::new(), mode: super::tune("MODE", 5.) as u32 }
+        Self {
+            bits: vec![NONE; n],
+            rows: Vec::new(),
+            degrees: Vec::new(),
+            around: Vec::new(),
+            mode: super::tune("MODE", 5.) as u32,
+        }
     }
 
-    #[inline(never)] pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
+    #[inline(never)]
+    pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
         let n = part.len();
         if n < 2 {
             return;
@@ -46,7 +53,13 @@ impl LeafOrder {
                 row[bit as usize / 64] |= 1 << (bit % 64);
             }
             let d = graph.of(v).len() as u32;
-            self.degrees.push(match self.mode { 0 => d, 2|3 => d << 10, 4 => (d-1) << 10, 5|6 => 2 * d*(d-1), _ => d*(d-1) });
+            self.degrees.push(match self.mode {
+                0 => d,
+                2 | 3 => d << 10,
+                4 => (d - 1) << 10,
+                5 | 6 => 2 * d * (d - 1),
+                _ => d * (d - 1),
+            });
         }
         for v in part.iter().chain(&self.around) {
             self.bits[*v as usize] = NONE;

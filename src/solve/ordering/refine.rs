@@ -60,7 +60,8 @@ impl Refiner {
     }
 
     /// Improves a cut until nothing changes or `passes` are over.
-    #[inline(never)] pub(super) fn refine(
+    #[inline(never)]
+    pub(super) fn refine(
         &mut self,
         graph: &Graph,
         labels: &mut [u32],
@@ -90,7 +91,8 @@ impl Refiner {
         let mut best_length = 0;
         let mut best_weights = cut.weights;
         let mut stall = 0;
-        let patience = ((separator.len() as f64 * super::tune("PS",0.5)) as usize).clamp(super::tune("PMIN",30.) as usize, super::tune("PMAX",200.) as usize);
+        let patience = ((separator.len() as f64 * super::tune("PS", 0.5)) as usize)
+            .clamp(super::tune("PMIN", 30.) as usize, super::tune("PMAX", 200.) as usize);
         while stall < patience {
             let Some((v, side)) = self.choose(cut) else { break };
             self.shift(graph, labels, base, cut, v, side, unit);
