@@ -119,7 +119,7 @@ fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
         U::update(result, &done[start..], &pivot_row[start..column]);
         let tile = &pivot_row[column..next];
         for c in 0..result.len() {
-            let solved = U::ZERO.minus_scaled(&result[c], Scalar::minus(U::Element::ZERO, tile[c].lane(c)));
+            let solved = result[c].times(tile[c].lane(c));
             result[c] = solved;
             for other in c + 1..result.len() {
                 result[other] = result[other].minus_scaled(&solved, tile[c].lane(other));

@@ -1,4 +1,5 @@
 //! The numbers that a factor is made of, and the short vectors that the kernels work on.
+#![allow(trivial_numeric_casts, reason = "the macros cast for both precisions")]
 
 use core::fmt::Debug;
 
@@ -195,8 +196,6 @@ pub trait Unit: Copy + Debug + Send + Sync + 'static {
     type Element: Scalar<Unit = Self>;
     /// How many.
     const LANES: usize;
-    /// How many units of results the innermost loop keeps in registers: WebAssembly engines have 16 for everything.
-    const BLOCK: usize;
     /// All zero.
     const ZERO: Self;
 
@@ -204,6 +203,15 @@ pub trait Unit: Copy + Debug + Send + Sync + 'static {
     fn lane(&self, lane: usize) -> Self::Element;
     /// Replaces one of the numbers.
     fn set_lane(&mut self, lane: usize, value: Self::Element);
+    /// self·factor
+    #[must_use]
+    #[inline(always)]
+    fn times(&self, factor: Self::Element) -> Self {
+        Self::ZERO.minus_scaled(self, Self::Element::ZERO.minus(factor))
+    }
+    /// self + other
+    #[must_use]
+    fn plus(self, other: &Self) -> Self;
     /// self − a·factor
     #[must_use]
     fn minus_scaled(self, a: &Self, factor: Self::Element) -> Self;
@@ -221,7 +229,6 @@ macro_rules! units {
         impl Unit for [$real; $lanes] {
             type Element = $real;
             const LANES: usize = $lanes;
-            const BLOCK: usize = 4;
             const ZERO: Self = [0.0; $lanes];
 
             #[inline(always)]
@@ -238,6 +245,14 @@ macro_rules! units {
             fn minus_scaled(mut self, a: &Self, factor: $real) -> Self {
                 for i in 0..$lanes {
                     self[i] -= a[i] * factor;
+                }
+                self
+            }
+
+            #[inline(always)]
+            fn plus(mut self, other: &Self) -> Self {
+                for i in 0..$lanes {
+                    self[i] += other[i];
                 }
                 self
             }
@@ -264,7 +279,6 @@ macro_rules! units {
         impl Unit for Planar<[$real; $lanes]> {
             type Element = Complex<$real>;
             const LANES: usize = $lanes;
-            const BLOCK: usize = 2;
             const ZERO: Self = Planar { re: [0.0; $lanes], im: [0.0; $lanes] };
 
             #[inline(always)]
@@ -285,6 +299,15 @@ macro_rules! units {
                 }
                 for i in 0..$lanes {
                     self.im[i] = self.im[i] - a.re[i] * factor.im - a.im[i] * factor.re;
+                }
+                self
+            }
+
+            #[inline(always)]
+            fn plus(mut self, other: &Self) -> Self {
+                for i in 0..$lanes {
+                    self.re[i] += other.re[i];
+                    self.im[i] += other.im[i];
                 }
                 self
             }

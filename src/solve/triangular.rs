@@ -1,81 +1,105 @@
 //! Solves with a factor, front by front: forward with L, backward with Lᵀ.
+//!
+//! Small loops are functions of their own, never inlined: there are four kinds of factors, and the module is downloaded.
 
 use super::front::triangle;
 use super::scalar::{Scalar, Unit};
 use super::symbolic::Symbolic;
 
+/// One front's part of the factor.
+struct Part<'a, U: Unit> {
+    /// Tiles of the pivot rows.
+    pivots: &'a [U],
+    /// Tiles of the rows below.
+    below: &'a [U],
+    columns: core::ops::Range<usize>,
+    rows: &'a [u32],
+}
+
+/// The part of front `s` that begins at unit `start`, and the unit at which the next one begins.
+#[inline(never)]
+fn part<'a, U: Unit>(symbolic: &'a Symbolic, factor: &'a [U], s: usize, start: usize) -> (Part<'a, U>, usize) {
+    let (columns, rows) = (symbolic.columns(s), symbolic.rows_of(s));
+    let middle = start + triangle::<U>(columns.len().div_ceil(U::LANES));
+    let end = middle + rows.len().div_ceil(U::LANES) * columns.len();
+    (Part { pivots: &factor[start..middle], below: &factor[middle..end], columns, rows }, end)
+}
+
+/// The units at which the fronts begin.
+fn starts<U: Unit>(symbolic: &Symbolic, factor: &[U]) -> Vec<usize> {
+    let mut next = 0;
+    let mut begin = |s| {
+        let start = next;
+        next = part(symbolic, factor, s, start).1;
+        start
+    };
+    (0..symbolic.fronts()).map(&mut begin).collect()
+}
+
 /// Overwrites a right-hand side, in the order of elimination, with the solution.
+#[inline(never)]
 pub(super) fn solve_one<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U::Element]) {
-    let mut start = 0;
-    for s in 0..symbolic.fronts() {
-        let columns = symbolic.columns(s);
-        let (own, later) = x[columns.start..].split_at_mut(columns.len());
-        let rows = symbolic.rows_of(s);
-        let pivots = triangle::<U>(columns.len().div_ceil(U::LANES));
-        for (t, tile) in
-            own.len().div_ceil(U::LANES).checked_sub(1).map_or(0..0, |last| 0..last + 1).map(|t| (t, t * U::LANES))
-        {
-            let row = &factor[start + triangle::<U>(t)..];
-            let (done, open) = own.split_at_mut(tile);
-            let mut sums = dot(&row[..tile], done);
-            for c in 0..open.len().min(U::LANES) {
-                let unit = &row[tile + c];
-                let value = open[c].plus(sums.lane(c)).by(unit.lane(c));
-                open[c] = value;
-                sums = sums.minus_scaled(unit, value);
-            }
-        }
-        let below = &factor[start + pivots..];
-        for (row, ids) in below.chunks_exact(own.len()).zip(rows.chunks(U::LANES)) {
-            let sums = dot(row, own);
-            for (lane, &id) in ids.iter().enumerate() {
-                let target = &mut later[id as usize - columns.end];
-                *target = target.plus(sums.lane(lane));
-            }
-        }
-        start += pivots + rows.len().div_ceil(U::LANES) * own.len();
+    let starts = starts(symbolic, factor);
+    for (s, &start) in starts.iter().enumerate() {
+        forward(&part(symbolic, factor, s, start).0, x);
     }
-    let mut sums: Vec<U> = Vec::new();
-    for s in (0..symbolic.fronts()).rev() {
-        let columns = symbolic.columns(s);
-        let (own, later) = x[columns.start..].split_at_mut(columns.len());
-        let rows = symbolic.rows_of(s);
-        let pivots = triangle::<U>(columns.len().div_ceil(U::LANES));
-        start -= pivots + rows.len().div_ceil(U::LANES) * own.len();
-        let (front, below) = factor[start..].split_at(pivots);
-        sums.clear();
-        sums.resize(own.len(), U::ZERO);
-        for (row, ids) in below.chunks_exact(own.len()).zip(rows.chunks(U::LANES)) {
-            let mut values = U::ZERO;
-            for (lane, &id) in ids.iter().enumerate() {
-                values.set_lane(lane, later[id as usize - columns.end]);
-            }
-            for (sum, unit) in sums.iter_mut().zip(row) {
-                *sum = sum.plus_product(unit, &values);
-            }
+    let mut sums = Vec::new();
+    for (s, &start) in starts.iter().enumerate().rev() {
+        backward(&part(symbolic, factor, s, start).0, x, &mut sums);
+    }
+}
+
+#[inline(never)]
+fn forward<U: Unit>(part: &Part<'_, U>, x: &mut [U::Element]) {
+    let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
+    for tile in (0..own.len()).step_by(U::LANES) {
+        let row = &part.pivots[triangle::<U>(tile / U::LANES)..];
+        let (done, open) = own.split_at_mut(tile);
+        let mut sums = minus_products(&row[..tile], done);
+        for (c, value) in open.iter_mut().take(U::LANES).enumerate() {
+            let unit = &row[tile + c];
+            *value = value.plus(sums.lane(c)).by(unit.lane(c));
+            sums = sums.minus_scaled(unit, *value);
         }
-        for t in (0..own.len().div_ceil(U::LANES)).rev() {
-            let tile = t * U::LANES;
-            let row = &front[triangle::<U>(t)..];
-            let mut values = U::ZERO;
-            for c in (tile..own.len().min(tile + U::LANES)).rev() {
-                let unit = &row[c];
-                // The lanes of `values` up to this one are still zero.
-                let known = sums[c].plus_product(unit, &values).sum();
-                let value = own[c].minus(known).by(unit.lane(c - tile));
-                own[c] = value;
-                values.set_lane(c - tile, value);
-            }
-            for (sum, unit) in sums[..tile].iter_mut().zip(row) {
-                *sum = sum.plus_product(unit, &values);
-            }
+    }
+    for (row, ids) in part.below.chunks_exact(own.len()).zip(part.rows.chunks(U::LANES)) {
+        let sums = minus_products(row, own);
+        for (lane, &id) in ids.iter().enumerate() {
+            let value = &mut later[id as usize - part.columns.end];
+            *value = value.plus(sums.lane(lane));
         }
     }
 }
 
+/// `sums` is for its use only.
+#[inline(never)]
+fn backward<U: Unit>(part: &Part<'_, U>, x: &mut [U::Element], sums: &mut Vec<U>) {
+    let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
+    sums.clear();
+    sums.resize(own.len(), U::ZERO);
+    for (row, ids) in part.below.chunks_exact(own.len()).zip(part.rows.chunks(U::LANES)) {
+        let mut values = U::ZERO;
+        for (lane, &id) in ids.iter().enumerate() {
+            values.set_lane(lane, later[id as usize - part.columns.end]);
+        }
+        add_products(sums, row, &values);
+    }
+    for tile in (0..own.len()).step_by(U::LANES).rev() {
+        let row = &part.pivots[triangle::<U>(tile / U::LANES)..];
+        let mut values = U::ZERO;
+        for c in (tile..own.len().min(tile + U::LANES)).rev() {
+            // The lanes of `values` up to this one are still zero.
+            let known = sums[c].plus_product(&row[c], &values).sum();
+            own[c] = own[c].minus(known).by(row[c].lane(c - tile));
+            values.set_lane(c - tile, own[c]);
+        }
+        add_products(&mut sums[..tile], row, &values);
+    }
+}
+
 /// − Σ `units[k]` · `x[k]`, in two sums that do not wait for each other.
-#[inline(always)]
-fn dot<U: Unit>(units: &[U], x: &[U::Element]) -> U {
+#[inline(never)]
+fn minus_products<U: Unit>(units: &[U], x: &[U::Element]) -> U {
     let (mut even, mut odd) = (U::ZERO, U::ZERO);
     let (pairs, last) = units.as_chunks::<2>();
     let (xs, last_x) = x.as_chunks::<2>();
@@ -86,91 +110,93 @@ fn dot<U: Unit>(units: &[U], x: &[U::Element]) -> U {
     for (unit, &x) in last.iter().zip(last_x) {
         even = even.minus_scaled(unit, x);
     }
-    for lane in 0..U::LANES {
-        even.set_lane(lane, even.lane(lane).plus(odd.lane(lane)));
+    even.plus(&odd)
+}
+
+/// `sums[k]` += `row[k]` · `values`, lane by lane.
+#[inline(never)]
+fn add_products<U: Unit>(sums: &mut [U], row: &[U], values: &U) {
+    for (sum, unit) in sums.iter_mut().zip(row) {
+        *sum = sum.plus_product(unit, values);
     }
-    even
 }
 
 /// Overwrites as many right-hand sides as a unit has lanes, a unit for each unknown, with their solutions.
+#[inline(never)]
 pub(super) fn solve_block<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U]) {
+    let starts = starts(symbolic, factor);
     let mut gathered: Vec<U> = vec![U::ZERO; U::LANES];
-    let mut start = 0;
-    for s in 0..symbolic.fronts() {
-        let columns = symbolic.columns(s);
-        let (own, later) = x[columns.start..].split_at_mut(columns.len());
-        let rows = symbolic.rows_of(s);
-        let pivots = triangle::<U>(columns.len().div_ceil(U::LANES));
+    for (s, &start) in starts.iter().enumerate() {
+        let part = part(symbolic, factor, s, start).0;
+        let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
         for tile in (0..own.len()).step_by(U::LANES) {
-            let row = &factor[start + triangle::<U>(tile / U::LANES)..];
+            let row = &part.pivots[triangle::<U>(tile / U::LANES)..];
             let (done, open) = own.split_at_mut(tile);
-            let open = &mut open[..U::LANES.min(columns.len() - tile)];
+            let open = &mut open[..U::LANES.min(part.columns.len() - tile)];
             U::update(open, done, &row[..tile]);
-            for c in 0..open.len() {
-                let unit = &row[tile + c];
-                let solved = scaled(&open[c], unit.lane(c));
-                open[c] = solved;
-                for other in c + 1..open.len() {
-                    open[other] = open[other].minus_scaled(&solved, unit.lane(other));
-                }
-            }
+            solve_tile(open, &row[tile..]);
         }
-        let below = &factor[start + pivots..];
-        for (row, ids) in below.chunks_exact(own.len()).zip(rows.chunks(U::LANES)) {
+        for (row, ids) in part.below.chunks_exact(own.len()).zip(part.rows.chunks(U::LANES)) {
             for (unit, &id) in gathered.iter_mut().zip(ids) {
-                *unit = later[id as usize - columns.end];
+                *unit = later[id as usize - part.columns.end];
             }
             U::update(&mut gathered, own, row);
             for (unit, &id) in gathered.iter().zip(ids) {
-                later[id as usize - columns.end] = *unit;
+                later[id as usize - part.columns.end] = *unit;
             }
         }
-        start += pivots + rows.len().div_ceil(U::LANES) * own.len();
     }
-    for s in (0..symbolic.fronts()).rev() {
-        let columns = symbolic.columns(s);
-        let (own, later) = x[columns.start..].split_at_mut(columns.len());
-        let rows = symbolic.rows_of(s);
-        let pivots = triangle::<U>(columns.len().div_ceil(U::LANES));
-        start -= pivots + rows.len().div_ceil(U::LANES) * own.len();
-        let (front, below) = factor[start..].split_at(pivots);
-        for (row, ids) in below.chunks_exact(own.len()).zip(rows.chunks(U::LANES)) {
-            gathered.fill(U::ZERO);
+    for (s, &start) in starts.iter().enumerate().rev() {
+        let part = part(symbolic, factor, s, start).0;
+        let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
+        for (row, ids) in part.below.chunks_exact(own.len()).zip(part.rows.chunks(U::LANES)) {
+            // The rows that fill the last tile up are zero, whatever has been gathered for them before.
             for (unit, &id) in gathered.iter_mut().zip(ids) {
-                *unit = later[id as usize - columns.end];
+                *unit = later[id as usize - part.columns.end];
             }
             subtract_transposed(own, row, &gathered);
         }
         for tile in (0..own.len()).step_by(U::LANES).rev() {
-            let row = &front[triangle::<U>(tile / U::LANES)..];
+            let row = &part.pivots[triangle::<U>(tile / U::LANES)..];
             let (before, open) = own.split_at_mut(tile);
-            let open = &mut open[..U::LANES.min(columns.len() - tile)];
-            for c in (0..open.len()).rev() {
-                let unit = &row[tile + c];
-                let mut value = open[c];
-                for other in c + 1..open.len() {
-                    value = value.minus_scaled(&open[other], unit.lane(other));
-                }
-                open[c] = scaled(&value, unit.lane(c));
-            }
-            gathered.fill(U::ZERO);
-            gathered[..open.len()].copy_from_slice(open);
-            subtract_transposed(before, &row[..tile], &gathered);
+            let open = &mut open[..U::LANES.min(part.columns.len() - tile)];
+            solve_transposed_tile(open, &row[tile..]);
+            subtract_transposed(before, &row[..tile], open);
         }
     }
 }
 
-/// `results[k]` −= Σ over lanes of lane i of `row[k]` · `values[i]`
-#[inline(always)]
+/// Forward within a diagonal tile.
+#[inline(never)]
+fn solve_tile<U: Unit>(open: &mut [U], tile: &[U]) {
+    for c in 0..open.len() {
+        let solved = open[c].times(tile[c].lane(c));
+        open[c] = solved;
+        for (other, unit) in open.iter_mut().enumerate().skip(c + 1) {
+            *unit = unit.minus_scaled(&solved, tile[c].lane(other));
+        }
+    }
+}
+
+/// Backward within a diagonal tile.
+#[inline(never)]
+fn solve_transposed_tile<U: Unit>(open: &mut [U], tile: &[U]) {
+    for c in (0..open.len()).rev() {
+        let (before, after) = open.split_at_mut(c + 1);
+        let mut value = before[c];
+        for (k, unit) in after.iter().enumerate() {
+            value = value.minus_scaled(unit, tile[c].lane(c + 1 + k));
+        }
+        before[c] = value.times(tile[c].lane(c));
+    }
+}
+
+/// `results[k]` −= Σ over i of lane i of `row[k]` · `values[i]`
+#[inline(never)]
 fn subtract_transposed<U: Unit>(results: &mut [U], row: &[U], values: &[U]) {
     for (result, unit) in results.iter_mut().zip(row) {
         for (lane, value) in values.iter().enumerate() {
             *result = result.minus_scaled(value, unit.lane(lane));
         }
     }
-}
-
-#[inline(always)]
-fn scaled<U: Unit>(unit: &U, factor: U::Element) -> U {
-    U::ZERO.minus_scaled(unit, U::Element::ZERO.minus(factor))
 }
