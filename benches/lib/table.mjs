@@ -8,7 +8,8 @@ export function printTable(rows) {
   for (const row of rows) console.log(row.map(pad).join('  ').trimEnd());
 }
 
-export const number = (value, digits = 3) => (Number.isFinite(value) ? value.toPrecision(digits) : '–');
+export const number = (value, digits = 3) =>
+  Number.isFinite(value) ? value.toPrecision(digits) : value === Infinity ? '∞' : '–';
 export const size = (count) => (count % 1e6 === 0 ? `${count / 1e6}M` : `${count / 1e3}k`);
 const millions = (value) => (value === undefined ? '–' : (value / 1e6).toFixed(2));
 
