@@ -40,13 +40,14 @@ export function printSpeed({ samples, facts }, systems) {
 }
 
 export function printCalls({ samples }) {
-  const rows = [['seconds', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD']];
+  const rows = [['seconds', 'first round', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD']];
   for (const [system, name] of [
     ['A3', 'equation (3), metric identity'],
     ['A', 'equation (5), metric mass'],
   ]) {
     const kinds = ['first', 'cholmod-first', 'next', 'cholmod-next'];
-    rows.push([name, ...kinds.map((kind) => number(median(samples[`${system}/${kind}`])))]);
+    const medians = kinds.map((kind) => number(median(samples[`${system}/${kind}`])));
+    rows.push([name, number(samples[`${system}/first`][0]), ...medians]);
   }
   printTable(rows);
 }
