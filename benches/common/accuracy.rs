@@ -142,11 +142,13 @@ pub(crate) fn refined(
 ) -> (Vec<Complex<f64>>, usize) {
     const MOST_STEPS: usize = 20;
     let mut z = vec![Complex::default(); b.len()];
-    let size = |z: &[Complex<f64>]| norm(&z.iter().map(|z| z.im).collect::<Vec<f64>>());
+    let imaginary = |z: &[Complex<f64>]| norm(&z.iter().map(|z| z.im).collect::<Vec<f64>>());
+    // Both parts of a correction count: what is wrong with one goes over to the other.
+    let size = |z: &[Complex<f64>]| norm(&z.iter().flat_map(|z| [z.re, z.im]).collect::<Vec<f64>>());
     let mut previous = size(&correct(pattern, values, b, factor, &mut z));
     for step in 1..=MOST_STEPS {
         let correction = size(&correct(pattern, values, b, factor, &mut z));
-        if correction * (correction / previous) <= TOLERANCE * size(&z) {
+        if correction * (correction / previous) <= TOLERANCE * imaginary(&z) {
             return (z, step);
         }
         previous = correction;

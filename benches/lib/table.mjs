@@ -8,7 +8,8 @@ export function printTable(rows) {
   for (const row of rows) console.log(row.map(pad).join('  ').trimEnd());
 }
 
-export const number = (value, digits = 3) => (Number.isFinite(value) ? value.toPrecision(digits) : '–');
+export const number = (value, digits = 3) =>
+  Number.isFinite(value) ? value.toPrecision(digits) : value === Infinity ? '∞' : '–';
 export const size = (count) => (count % 1e6 === 0 ? `${count / 1e6}M` : `${count / 1e3}k`);
 const millions = (value) => (value === undefined ? '–' : (value / 1e6).toFixed(2));
 
@@ -39,13 +40,14 @@ export function printSpeed({ samples, facts }, systems) {
 }
 
 export function printCalls({ samples }) {
-  const rows = [['seconds', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD']];
+  const rows = [['seconds', 'first round', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD']];
   for (const [system, name] of [
     ['A3', 'equation (3), metric identity'],
     ['A', 'equation (5), metric mass'],
   ]) {
     const kinds = ['first', 'cholmod-first', 'next', 'cholmod-next'];
-    rows.push([name, ...kinds.map((kind) => number(median(samples[`${system}/${kind}`])))]);
+    const medians = kinds.map((kind) => number(median(samples[`${system}/${kind}`])));
+    rows.push([name, number(samples[`${system}/first`][0]), ...medians]);
   }
   printTable(rows);
 }
