@@ -319,8 +319,16 @@ stage_error! {
             /// Its row.
             row: usize,
         } => "row {row} of the system holds a number that is not finite",
-        /// The Cholesky factorisation met a pivot that is not positive.
-        NotPositiveDefinite {} => "the matrix is not numerically positive definite; a larger epsilon helps",
+        /// A pivot, a diagonal entry or a curvature is not positive.
+        NotPositiveDefinite {
+            /// The column, hence the unknown.
+            column: usize,
+        } => "the matrix is not numerically positive definite at unknown {column}; a larger epsilon helps",
+        /// A preconditioner turned a residual by a right angle or more.
+        IndefinitePreconditioner {
+            /// Iterations done.
+            iterations: usize,
+        } => "the preconditioner is not positive definite: found after {iterations} iterations",
         /// An iteration or refinement stopped before its tolerance.
         NotConverged {
             /// Iterations done.

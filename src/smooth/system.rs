@@ -6,9 +6,10 @@ use super::tikhonov::{Metric, TikhonovOptions};
 use super::{Phase, Progress, SolverChoice};
 use crate::error::{Result, SolveError};
 use crate::mesh::{LinkKind, TriMesh};
-use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
+use crate::operators::{LaplacianWeights, MassScale, galerkin_mass, lumped_mass_diagonal};
 use crate::solve::{
-    CgOptions, CholeskyAnalysis, CholeskyFactor, conjugate_gradient, gram, norm, product, submatrix, transposed_product,
+    CgOptions, CholeskyAnalysis, CholeskyFactor, Jacobi, Preconditioner, SquaredSum, conjugate_gradient, gram, norm,
+    product, submatrix, transposed_product,
 };
 
 /// A correction below this fraction of the solution ends the refinement: where refinement contracts at all, the error
@@ -19,6 +20,12 @@ const MOST_REFINEMENTS: usize = 12;
 /// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
 /// refinement can solve; refinement makes up the rest.
 const CG_TOLERANCE: f64 = 1e-6;
+/// Relative residual that is taken for converged where rounding allows no less.
+const ROUGH_RESIDUAL: f64 = 0.5;
+/// Ten to twenty iterations do with [`SquaredSum`]; past this many, rounding prevails.
+const MOST_SQUARED: usize = 200;
+/// The inner tolerance of a second attempt.
+const TIGHT: f64 = 1e-8;
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
@@ -32,6 +39,7 @@ pub(super) struct TikhonovSystem {
     active: Vec<u32>,
     /// L on the unknowns.
     laplacian: CscMatrix<f64>,
+    symmetric: bool,
     /// LᵀL on the unknowns, and its analysis: made by the first direct solve.
     direct: Option<Direct>,
     mass: Option<(Metric, MassScale, Mass)>,
@@ -73,7 +81,7 @@ pub(super) struct Solved {
 }
 
 impl TikhonovSystem {
-    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, weights: LaplacianWeights) -> Result<Self> {
         let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
         let kinds = mesh.connectivity().link_kinds();
         // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero.
@@ -87,7 +95,7 @@ impl TikhonovSystem {
             .collect();
         let laplacian =
             if active.len() == laplacian.ncols() { laplacian.clone() } else { submatrix(laplacian, &active) };
-        Ok(Self { active, laplacian, direct: None, mass: None })
+        Ok(Self { active, laplacian, symmetric: weights.is_symmetric(), direct: None, mass: None })
     }
 
     /// Solves for every channel of normalised values.
@@ -107,7 +115,7 @@ impl TikhonovSystem {
         let epsilon = options.epsilon / scale;
         let heaviest = (0..self.active.len()).map(|i| self.mass().diagonal(i)).fold(0.0, f64::max);
         if !self.active.is_empty() && epsilon * heaviest < SMALLEST_WEIGHT {
-            return Err(SolveError::NotPositiveDefinite {}.into());
+            return Err(SolveError::NotPositiveDefinite { column: 0 }.into());
         }
         let (solutions, route, factor_nonzeros) = match solver {
             _ if self.active.is_empty() => (fields.iter().map(|_| Iterate::default()).collect(), "none", 0),
@@ -196,25 +204,64 @@ impl TikhonovSystem {
 
     /// A⁻¹εBf by conjugate gradients with the matrix in factored form.
     fn iterative(&self, fields: &[Vec<f64>], epsilon: f64, scale: f64) -> Result<Vec<Iterate>, SolveError> {
-        let mut diagonal: Vec<f64> = self
-            .laplacian
-            .col_iter()
-            .map(|column| column.values().iter().map(|v| v * v).sum::<f64>() / scale)
-            .collect();
-        for (i, d) in diagonal.iter_mut().enumerate() {
-            *d += epsilon * self.mass().diagonal(i);
+        if self.symmetric {
+            // Only ratios matter to a preconditioner, so this is √scale times what is in the system.
+            let root = (epsilon * scale).sqrt();
+            let diagonal: Vec<f64> = (0..self.active.len()).map(|i| root * self.mass().lumped(i).sqrt()).collect();
+            if let Ok(mut squared) = SquaredSum::new(&self.laplacian, &diagonal, SquaredSum::TOLERANCE) {
+                let outcome = self.iterate(fields, epsilon, scale, &squared, MOST_SQUARED);
+                let Err(SolveError::IndefinitePreconditioner { .. } | SolveError::NotConverged { .. }) = outcome else {
+                    return outcome;
+                };
+                // Rows of needle triangles: a small residual of the inner systems is not yet a solution.
+                squared.set_tolerance(TIGHT);
+                return self.iterate(fields, epsilon, scale, &squared, MOST_SQUARED);
+            }
         }
-        let apply = |x: &[f64]| {
+        let jacobi = Jacobi::new(&self.diagonal(epsilon, scale))?;
+        self.iterate(fields, epsilon, scale, &jacobi, CgOptions::default().max_iterations)
+    }
+
+    /// The diagonal of LᵀL/scale + εB.
+    fn diagonal(&self, epsilon: f64, scale: f64) -> Vec<f64> {
+        let columns = self.laplacian.col_iter().enumerate();
+        columns
+            .map(|(i, column)| {
+                let square: f64 = column.values().iter().map(|v| v * v).sum();
+                square / scale + epsilon * self.mass().diagonal(i)
+            })
+            .collect()
+    }
+
+    fn iterate(
+        &self,
+        fields: &[Vec<f64>],
+        epsilon: f64,
+        scale: f64,
+        preconditioner: &dyn Preconditioner,
+        max_iterations: usize,
+    ) -> Result<Vec<Iterate>, SolveError> {
+        let mut apply = |x: &[f64]| {
             let smooth = transposed_product(&self.laplacian, &product(&self.laplacian, x));
             self.mass().times(x).iter().zip(smooth).map(|(b, l)| epsilon * b + l / scale).collect()
         };
-        let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
+        let options = CgOptions { tolerance: CG_TOLERANCE, max_iterations, ..CgOptions::default() };
         self.refine(fields, epsilon, scale, &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let n = self.active.len();
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
             for ((b, x), iterations) in columns.zip(iterations) {
-                *iterations += conjugate_gradient(apply, &diagonal, b, x, &options)?.iterations;
+                *iterations += match conjugate_gradient(&mut apply, preconditioner, b, x, &options) {
+                    Ok(info) => info.iterations,
+                    // What rounding leaves in the residual of small ε is rough, and A⁻¹ hardly feels it: whether the
+                    // solution is one is seen by its corrections.
+                    Err(SolveError::NotConverged { iterations, residual })
+                        if residual < ROUGH_RESIDUAL && iterations < max_iterations =>
+                    {
+                        iterations
+                    }
+                    Err(error) => return Err(error),
+                };
             }
             Ok(solutions)
         })
@@ -314,6 +361,14 @@ impl Mass {
             Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
             // Symmetric, so the product that gathers serves.
             Self::Matrix(matrix) => transposed_product(matrix, x),
+        }
+    }
+
+    /// The sum of a row.
+    fn lumped(&self, i: usize) -> f64 {
+        match self {
+            Self::Matrix(matrix) => matrix.col(i).values().iter().sum(),
+            _ => self.diagonal(i),
         }
     }
 

@@ -51,7 +51,7 @@ pub(super) fn run(
     let channels = split_channels(smoother, values, options.channels)?;
     let mut system = match smoother.tikhonov.take() {
         Some(system) => system,
-        None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian)?,
+        None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian, smoother.options.weights)?,
     };
     let fields: Vec<Vec<f64>> = channels.iter().map(|channel| channel.normalized.clone()).collect();
     let solved = system.solve(&smoother.mesh, &fields, options, smoother.options.solver, progress);

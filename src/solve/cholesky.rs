@@ -87,7 +87,7 @@ impl CholeskyAnalysis {
     pub fn factor(&self, values: &[f64]) -> Result<CholeskyFactor, SolveError> {
         let permuted = self.permuted(values)?;
         let factor = CscCholesky::factor_numerical(self.shared.symbolic.clone(), &permuted)
-            .map_err(|_| SolveError::NotPositiveDefinite {})?;
+            .map_err(|_| SolveError::NotPositiveDefinite { column: 0 })?;
         Ok(CholeskyFactor { analysis: self.clone(), factor })
     }
 
@@ -117,7 +117,7 @@ impl CholeskyFactor {
     /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite`; after the last the factor must not be used to solve.
     pub fn refactor(&mut self, values: &[f64]) -> Result<(), SolveError> {
         let permuted = self.analysis.permuted(values)?;
-        self.factor.refactor(&permuted).map_err(|_| SolveError::NotPositiveDefinite {})
+        self.factor.refactor(&permuted).map_err(|_| SolveError::NotPositiveDefinite { column: 0 })
     }
 
     /// Solves A X = B for right-hand sides stored one after the other.
