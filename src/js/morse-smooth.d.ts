@@ -50,7 +50,7 @@ export class MorseSmoothError extends Error {
    * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`,
    *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
    * - fields: `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`
-   * - systems: `NotPositiveDefinite`, `NotConverged`, `OutOfMemory`
+   * - systems: `NotPositiveDefinite`, `IndefinitePreconditioner`, `NotConverged`, `OutOfMemory`
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`
    * - `InternalError`: a bug of ours, always worth a report

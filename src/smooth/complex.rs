@@ -86,7 +86,6 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
     let mut iterates = refine(Refinement {
         count: task.fields.len(),
         length: 2 * n,
-        wanted: n..2 * n,
         tolerance,
         residual: &residual,
         solve: &mut |residuals, _| {

@@ -169,7 +169,8 @@ impl Smoother {
     ///
     /// # Errors
     /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for ε or channels; `ZeroArea` for a mass matrix
-    /// on a mesh without area; `NotPositiveDefinite`, `NotConverged`, `OutOfMemory` from the solver.
+    /// on a mesh without area; `NotPositiveDefinite`, `IndefinitePreconditioner`, `NotConverged`,
+    /// `OutOfMemory` from the solver.
     pub fn tikhonov(&mut self, values: &[f64], options: &TikhonovOptions) -> Result<Smoothed> {
         self.tikhonov_with_progress(values, options, &mut |_, _| {})
     }

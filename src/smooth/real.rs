@@ -38,7 +38,6 @@ impl RealRoute {
         let iterates = refine(Refinement {
             count: task.fields.len(),
             length: n,
-            wanted: 0..n,
             tolerance: task.tolerance(precision),
             residual: &|c, x| task.problem.residual(&task.fields[c], x),
             solve: &mut |b, _| factor.solve(b),

@@ -1,13 +1,13 @@
 //! Iterative refinement: what every solver's solution is brought to full accuracy with.
 
-use core::ops::Range;
-
 use crate::error::SolveError;
 use crate::solve::norm;
 
 const MOST_STEPS: usize = 12;
 /// Relative corrections of this size are rounding.
 const ROUNDING: f64 = 1e-13;
+/// Corrections of this size that shrink no more are rounding too, on a badly conditioned system.
+const ROUGH_ROUNDING: f64 = 1e-11;
 
 /// One solved right-hand side.
 #[derive(Debug, Clone, Default)]
@@ -21,9 +21,8 @@ pub(super) struct Iterate {
 pub(super) struct Refinement<'a> {
     /// Number of right-hand sides.
     pub(super) count: usize,
-    /// Length of each solution, and the part of it that is wanted.
+    /// Length of each solution.
     pub(super) length: usize,
-    pub(super) wanted: Range<usize>,
     /// The relative error that is small enough.
     pub(super) tolerance: f64,
     /// The residual of a right-hand side at an approximate solution.
@@ -55,8 +54,7 @@ pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
             let iterate = &mut iterates[c];
             iterate.iterations += iterations;
             iterate.refinement_steps = step;
-            let wanted = task.wanted.clone();
-            let size = norm(&correction[wanted.clone()]) / norm(&iterate.x[wanted]).max(f64::MIN_POSITIVE);
+            let size = norm(correction) / norm(&iterate.x).max(f64::MIN_POSITIVE);
             iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
             // The first solution is no correction: what it is corrected by tells how good it was.
             if step == 0 {
@@ -65,6 +63,9 @@ pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
             }
             let shrunk = size / previous[c];
             if !(size.is_finite() && shrunk < 0.5) {
+                if size <= ROUGH_ROUNDING {
+                    continue;
+                }
                 return Err(SolveError::NotConverged { iterations: step, residual: size });
             }
             previous[c] = size;

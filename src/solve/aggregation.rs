@@ -1,15 +1,15 @@
-//! Aggregates of strongly coupled unknowns, and the prolongation from them \[Vanek96, section 5\].
+//! Aggregates of strongly coupled unknowns, and the prolongation from them \[Vanek96\].
 
 use super::rows::{Rows, SymmetricRows};
 
-/// Unknowns i and j are strongly coupled where −a_ij ≥ θ √(a_ii a_jj) \[Vanek96, eq. 5.1\]. Positive entries, those of
+/// Unknowns i and j are strongly coupled where −a_ij ≥ θ √(a_ii a_jj) \[Vanek96\]. Positive entries, those of
 /// obtuse triangles, push errors apart and so never bind.
 const STRONG: f64 = 0.08;
 /// A row whose off-diagonal entries sum to no more than this fraction of its diagonal needs no coarse unknown: smoothing
 /// alone divides its error by the reciprocal.
 const DOMINATED: f64 = 0.2;
-/// ω/λ of the step that smooths the prolongation: 4/3 over the largest eigenvalue of the filtered D⁻¹A \[Vanek96,
-/// section 5\], which is at most 2, because its rows are positive weights with a sum of at most 1 taken from the identity.
+/// ω of the step that smooths the prolongation: 4/3 over the largest eigenvalue of the filtered D⁻¹A \[Vanek96\], which is at
+/// most 2, because its rows are the identity's minus positive weights with a sum of at most 1.
 const RELAXATION: f64 = 2.0 / 3.0;
 /// In no aggregate yet.
 const FREE: u32 = u32::MAX;

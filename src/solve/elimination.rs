@@ -73,13 +73,14 @@ impl Elimination {
         if !(pivot > 0.0 && (1.0 / pivot).is_finite()) {
             return Err(SolveError::NotPositiveDefinite { column: i as usize });
         }
+        let scale = 1.0 / pivot.sqrt();
         rows.places[i as usize] = GONE;
         for &(j, value) in row.iter().filter(|&&(j, _)| j != i) {
             let other = rows.change(j as usize);
             other.retain(|&(k, _)| k != i);
             for &(k, beside) in row.iter().filter(|&&(k, _)| k != i) {
                 // The same in both triangles to the last digit.
-                let change = -(value * beside) / pivot;
+                let change = -(value * scale) * (beside * scale);
                 match other.iter_mut().find(|(column, _)| *column == k) {
                     Some((_, entry)) => *entry += change,
                     None => other.push((k, change)),

@@ -3,7 +3,7 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::aggregation::prolongation;
-use super::cg::descend;
+use super::cg::{Limits, descend};
 use super::elimination::Elimination;
 use super::matrix::norm;
 use super::preconditioner::Preconditioner;
@@ -82,7 +82,14 @@ impl Multigrid {
         let mut residual = self.elimination.forward(&mut r);
         let mut x = vec![0.0; residual.len()];
         let target = tolerance * norm(&residual);
-        descend(&mut |x| self.product(x), &Reduced(self), &mut residual, &mut x, target, most)?;
+        descend(
+            &mut |x| self.product(x),
+            &Reduced(self),
+            &mut residual,
+            &mut x,
+            target,
+            Limits { most, patience: most },
+        )?;
         self.elimination.backward(&x, &mut r);
         Ok(r)
     }

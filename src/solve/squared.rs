@@ -7,13 +7,15 @@ use super::preconditioner::Preconditioner;
 use super::rows::SymmetricRows;
 use crate::error::SolveError;
 
-/// Most inner iterations; multigrid takes a handful.
-const MOST_INNER: usize = 100;
+/// Most inner iterations; multigrid takes a handful, but for rows of needle triangles.
+const MOST_INNER: usize = 500;
 
-/// P = (L + D)², a preconditioner for A = L² + D² with a symmetric positive semi-definite L and a positive diagonal D.
+/// P = (L + D) W (L + D), a preconditioner for A = LWL + DWD with a symmetric positive semi-definite L and positive
+/// diagonals D and W, the latter the identity unless [`SquaredSum::between`] says something else.
 ///
 /// # Definition
-/// P⁻¹ r = (L + D)⁻¹ (L + D)⁻¹ r, both by conjugate gradients with [`Multigrid`] to a loose relative tolerance.
+/// P⁻¹ r = (L + D)⁻¹ W⁻¹ (L + D)⁻¹ r up to a factor, both solves by conjugate gradients with [`Multigrid`] to a loose
+/// relative tolerance.
 ///
 /// # Properties
 /// P − A = LD + DL. For D = √ε·I both have the eigenvectors of L, and the ratio (λ² + ε)/(λ + √ε)² of their eigenvalues is
@@ -22,11 +24,15 @@ const MOST_INNER: usize = 100;
 pub struct SquaredSum {
     multigrid: Multigrid,
     tolerance: f64,
+    /// The largest diagonal entry of L + D.
+    largest: f64,
+    /// The diagonal of W⁻¹, divided by its largest entry.
+    between: Option<Vec<f64>>,
 }
 
 impl SquaredSum {
     /// What each of the two solves leaves of its right-hand side, in the norm: less pays off in outer iterations only.
-    pub const TOLERANCE: f64 = 1e-2;
+    pub const TOLERANCE: f64 = 2e-2;
 
     /// For a symmetric matrix L that stores both triangles, and the diagonal of D.
     ///
@@ -39,8 +45,26 @@ impl SquaredSum {
         if let Some(row) = diagonal.iter().position(|d| !d.is_finite()) {
             return Err(SolveError::NonFiniteEntry { row });
         }
-        let multigrid = Multigrid::from_rows(SymmetricRows::shifted(matrix, diagonal)?)?;
-        Ok(Self { multigrid, tolerance })
+        let sum = SymmetricRows::shifted(matrix, diagonal)?;
+        let largest = (0..sum.size()).map(|i| sum.diagonal(i)).fold(0.0, f64::max);
+        Ok(Self { multigrid: Multigrid::from_rows(sum)?, tolerance, largest, between: None })
+    }
+
+    /// Another tolerance for both solves.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+    }
+
+    /// For a W that is not the identity: its inverse.
+    #[must_use]
+    pub fn between(mut self, inverse: &[f64]) -> Self {
+        let largest = inverse.iter().fold(0.0_f64, |largest, &w| largest.max(w));
+        self.between = Some(inverse.iter().map(|w| w / largest).collect());
+        self
+    }
+
+    fn scaled(&self, r: &[f64]) -> Vec<f64> {
+        r.iter().map(|r| r * self.largest).collect()
     }
 }
 
@@ -50,7 +74,11 @@ impl Preconditioner for SquaredSum {
     }
 
     fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
-        let half = self.multigrid.solve(r.to_vec(), self.tolerance, MOST_INNER)?;
-        self.multigrid.solve(half, self.tolerance, MOST_INNER)
+        // The factor keeps numbers within range where D is tiny or huge, and changes nothing else.
+        let mut half = self.multigrid.solve(self.scaled(r), self.tolerance, MOST_INNER)?;
+        if let Some(between) = &self.between {
+            half.iter_mut().zip(between).for_each(|(h, w)| *h *= w);
+        }
+        self.multigrid.solve(self.scaled(&half), self.tolerance, MOST_INNER)
     }
 }

@@ -20,12 +20,6 @@ impl FactorSize {
         let sum = |each: fn(u64) -> u64| counts.iter().map(|&count| each(count.into())).fold(0, u64::saturating_add);
         Self { nonzeros: sum(|count| count), flops: sum(|count| count * count) }
     }
-
-    /// Counts without keeping anything.
-    pub(super) fn count(pattern: &SparsityPattern, permutation: &Permutation) -> Self {
-        let (tree, later) = EliminationTree::new(pattern, permutation);
-        Self::of(&tree.counts(&later))
-    }
 }
 
 /// The analysis of a pattern: the order of elimination, and the fronts.

@@ -11,37 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use proptest::prelude::*;
 
-use crate::support::{dense, shuffle};
-
-/// A symmetric matrix from its pairs, made definite by a dominant diagonal.
-fn dominant(n: usize, pairs: &[(usize, usize, f64)]) -> CscMatrix<f64> {
-    let mut coo = CooMatrix::new(n, n);
-    let mut sums = vec![0.5; n];
-    let mut seen = std::collections::BTreeSet::new();
-    for &(i, j, value) in pairs {
-        if i != j && seen.insert((i.min(j), i.max(j))) {
-            coo.push(i, j, value);
-            coo.push(j, i, value);
-            sums[i] += value.abs();
-            sums[j] += value.abs();
-        }
-    }
-    for (i, &sum) in sums.iter().enumerate() {
-        coo.push(i, i, sum);
-    }
-    CscMatrix::from(&coo)
-}
-
-fn random_spd(seed: u64, n: usize, pairs: usize) -> CscMatrix<f64> {
-    let mut random = Random::new(seed);
-    let pairs: Vec<(usize, usize, f64)> = (0..pairs)
-        .map(|_| {
-            let at = |x: f64| (x * n as f64) as usize;
-            (at(random.uniform()), at(random.uniform()), random.signed())
-        })
-        .collect();
-    dominant(n, &pairs)
-}
+use crate::support::{dense, dominant, random_spd, shuffle};
 
 fn star(n: usize) -> CscMatrix<f64> {
     // The hub is in the middle of the numbering.
@@ -279,8 +249,8 @@ fn an_entry_without_a_mirror_image_is_refused() {
 }
 
 #[test]
-fn sizes_at_the_ends_of_double_precision() {
-    // Squares of these leave the range; the solution does not.
+fn lengths_at_the_ends_of_double_precision() {
+    // The squares of these leave the range.
     for size in [1e-300, 1e-170, 1e170, 1e300] {
         assert!((norm(&[3.0 * size, 4.0 * size]) / (5.0 * size) - 1.0).abs() < 1e-15, "norm at {size:e}");
     }

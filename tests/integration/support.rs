@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use nalgebra::DMatrix;
-use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::{CooMatrix, CscMatrix};
 
 pub(crate) fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> TriMesh {
     TriMesh::new(positions.as_flattened().to_vec(), triangles.as_flattened().to_vec()).expect("a valid mesh")
@@ -239,4 +239,34 @@ pub(crate) fn walk_link(link: &Link) -> Option<(Vec<u32>, bool)> {
             None => return Some((path, ends.is_empty())),
         }
     }
+}
+
+/// A symmetric matrix from its pairs, made definite by a dominant diagonal.
+pub(crate) fn dominant(n: usize, pairs: &[(usize, usize, f64)]) -> CscMatrix<f64> {
+    let mut coo = CooMatrix::new(n, n);
+    let mut sums = vec![0.5; n];
+    let mut seen = BTreeSet::new();
+    for &(i, j, value) in pairs {
+        if i != j && seen.insert((i.min(j), i.max(j))) {
+            coo.push(i, j, value);
+            coo.push(j, i, value);
+            sums[i] += value.abs();
+            sums[j] += value.abs();
+        }
+    }
+    for (i, &sum) in sums.iter().enumerate() {
+        coo.push(i, i, sum);
+    }
+    CscMatrix::from(&coo)
+}
+
+pub(crate) fn random_spd(seed: u64, n: usize, pairs: usize) -> CscMatrix<f64> {
+    let mut random = Random::new(seed);
+    let pairs: Vec<(usize, usize, f64)> = (0..pairs)
+        .map(|_| {
+            let at = |x: f64| (x * n as f64) as usize;
+            (at(random.uniform()), at(random.uniform()), random.signed())
+        })
+        .collect();
+    dominant(n, &pairs)
 }
