@@ -27,9 +27,11 @@ pub(super) fn sizes<U: Unit>(columns: usize, rows: usize) -> (usize, usize) {
 
 /// Tiles of pivot columns that are eliminated before the columns after them are brought up to date: 64 columns.
 const PANEL: usize = 64;
-/// Columns that one pass of an update takes, so that a tile of them stays in the first-level cache.
-const DEPTH: usize = 256;
-/// Rows that stay in the second-level cache while all tiles below pass by.
+/// Columns that one pass of an update takes: two tiles of so many stay in the first-level cache.
+const fn depth<U>() -> usize {
+    8192 / size_of::<U>()
+}
+/// Rows whose tiles stay in the second-level cache while all tiles below pass by.
 const BREADTH: usize = 128;
 
 /// One front.
@@ -63,8 +65,8 @@ impl<U: Unit> Front<'_, U> {
 #[inline(never)]
 fn update_panel<U: Unit>(pivots: &mut [U], below: &mut [U], columns: usize, start: usize, end: usize) {
     let tiles = start / U::LANES..end.div_ceil(U::LANES);
-    for depth in (0..start).step_by(DEPTH) {
-        let depth = depth..(depth + DEPTH).min(start);
+    for depth in (0..start).step_by(depth::<U>()) {
+        let depth = depth..(depth + self::depth::<U>()).min(start);
         for i in tiles.start..columns.div_ceil(U::LANES) {
             let (above, row) = pivots.split_at_mut(triangle::<U>(i));
             let (done, open) = row.split_at_mut(start);
@@ -153,8 +155,8 @@ fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: &[U::Element]) -> Result<()
 fn update_rest<U: Unit>(update: &mut [U], below: &[U], columns: usize) {
     let rows: usize = below.len() / columns.max(1);
     let breadth = BREADTH / U::LANES;
-    for depth in (0..columns).step_by(DEPTH) {
-        let depth = depth..(depth + DEPTH).min(columns);
+    for depth in (0..columns).step_by(depth::<U>()) {
+        let depth = depth..(depth + self::depth::<U>()).min(columns);
         for first in (0..rows).step_by(breadth) {
             for i in first..rows {
                 let a = &below[i * columns..][depth.clone()];

@@ -270,9 +270,24 @@ macro_rules! units {
                 self.iter().sum()
             }
 
+            /// Four results at a time stay in registers over the whole of `a` and `b`: WebAssembly engines have 16 of them,
+            /// and the compiler makes two of each unit.
             #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
-                update::<Self, 4>(result, a, b);
+                const COLUMNS: usize = 4;
+                let (blocks, rest) = result.as_chunks_mut::<COLUMNS>();
+                let mut lane = 0;
+                for block in blocks {
+                    let mut sums = *block;
+                    for (a, b) in a.iter().zip(b) {
+                        for j in 0..COLUMNS {
+                            sums[j] = sums[j].minus_scaled(a, b.lane(lane + j));
+                        }
+                    }
+                    *block = sums;
+                    lane += COLUMNS;
+                }
+                update_each(rest, a, b, lane);
             }
         }
 
@@ -326,9 +341,44 @@ macro_rules! units {
                 Complex::new(self.re.iter().sum(), self.im.iter().sum())
             }
 
+            /// Real parts, then imaginary parts: both together would need more registers than there are.
             #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
-                update::<Self, 2>(result, a, b);
+                const COLUMNS: usize = 4;
+                let (blocks, rest) = result.as_chunks_mut::<COLUMNS>();
+                let mut lane = 0;
+                for block in blocks {
+                    let mut sums = block.map(|unit| unit.re);
+                    for (a, b) in a.iter().zip(b) {
+                        for j in 0..COLUMNS {
+                            sums[j] = sums[j].minus_scaled(&a.re, b.re.lane(lane + j));
+                        }
+                    }
+                    for (a, b) in a.iter().zip(b) {
+                        for j in 0..COLUMNS {
+                            sums[j] = sums[j].minus_scaled(&a.im, -b.im.lane(lane + j));
+                        }
+                    }
+                    for (unit, sum) in block.iter_mut().zip(sums) {
+                        unit.re = sum;
+                    }
+                    let mut sums = block.map(|unit| unit.im);
+                    for (a, b) in a.iter().zip(b) {
+                        for j in 0..COLUMNS {
+                            sums[j] = sums[j].minus_scaled(&a.re, b.im.lane(lane + j));
+                        }
+                    }
+                    for (a, b) in a.iter().zip(b) {
+                        for j in 0..COLUMNS {
+                            sums[j] = sums[j].minus_scaled(&a.im, b.re.lane(lane + j));
+                        }
+                    }
+                    for (unit, sum) in block.iter_mut().zip(sums) {
+                        unit.im = sum;
+                    }
+                    lane += COLUMNS;
+                }
+                update_each(rest, a, b, lane);
             }
         }
     };
@@ -344,27 +394,15 @@ pub struct Planar<Parts> {
 units!(f64, 4);
 units!(f32, 8);
 
-/// [`Unit::update`], `N` results at a time: they stay in registers over the whole of `a` and `b`.
+/// [`Unit::update`] of results from lane `lane` on, one at a time.
 #[inline(always)]
-fn update<U: Unit, const N: usize>(result: &mut [U], a: &[U], b: &[U]) {
-    let (blocks, rest) = result.as_chunks_mut::<N>();
-    let mut lane = 0;
-    for block in blocks {
-        let mut sums = *block;
-        for (a, b) in a.iter().zip(b) {
-            for j in 0..N {
-                sums[j] = sums[j].minus_scaled(a, b.lane(lane + j));
-            }
-        }
-        *block = sums;
-        lane += N;
-    }
-    for one in rest {
-        let mut sum = *one;
+fn update_each<U: Unit>(results: &mut [U], a: &[U], b: &[U], mut lane: usize) {
+    for result in results {
+        let mut sum = *result;
         for (a, b) in a.iter().zip(b) {
             sum = sum.minus_scaled(a, b.lane(lane));
         }
-        *one = sum;
+        *result = sum;
         lane += 1;
     }
 }
