@@ -121,7 +121,7 @@ fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
         U::update(result, &done[start..], &pivot_row[start..column]);
         let tile = &pivot_row[column..next];
         for c in 0..result.len() {
-            let solved = result[c].times(tile[c].lane(c));
+            let solved = result[c].times(tile[c].lane(c)).without_traces();
             result[c] = solved;
             for other in c + 1..result.len() {
                 result[other] = result[other].minus_scaled(&solved, tile[c].lane(other));
@@ -141,6 +141,7 @@ fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: &[U::Element]) -> Result<()
         for lane in c + 1..U::LANES {
             column.set_lane(lane, tile[c].lane(lane).by(reciprocal));
         }
+        column = column.without_traces();
         for other in c + 1..tile.len() {
             tile[other] = tile[other].minus_scaled(&column, column.lane(other));
         }

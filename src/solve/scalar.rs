@@ -47,6 +47,9 @@ mod sealed {
     impl Sealed for nalgebra::Complex<f32> {}
 }
 
+/// About the root of the smallest normal number in single precision.
+const TRACE: f32 = 1e-19;
+
 /// A pivot below this many roundings of its diagonal entry is taken for zero. A singular Laplacian leaves a pivot of a few
 /// roundings, of either sign.
 const LOST: f64 = 16.0;
@@ -218,6 +221,10 @@ pub trait Unit: Copy + Debug + Send + Sync + 'static {
     /// self + a·b, lane by lane.
     #[must_use]
     fn plus_product(self, a: &Self, b: &Self) -> Self;
+    /// Zero for numbers whose squares would leave the normal range of single precision, where processors are slow; double
+    /// precision has no such numbers in practice. Matrices in single precision are scaled to entries of at most 1.
+    #[must_use]
+    fn without_traces(self) -> Self;
     /// The sum of the lanes.
     fn sum(&self) -> Self::Element;
     /// `result[j]` −= Σ over k of `a[k]` · lane j of `b[k]`
@@ -263,6 +270,11 @@ macro_rules! units {
                     self[i] += a[i] * b[i];
                 }
                 self
+            }
+
+            #[inline(always)]
+            fn without_traces(self) -> Self {
+                if <$real>::SINGLE { self.map(|x| if x.abs() < TRACE as $real { 0.0 } else { x }) } else { self }
             }
 
             #[inline(always)]
@@ -334,6 +346,11 @@ macro_rules! units {
                     self.im[i] += a.re[i] * b.im[i] + a.im[i] * b.re[i];
                 }
                 self
+            }
+
+            #[inline(always)]
+            fn without_traces(self) -> Self {
+                Planar { re: self.re.without_traces(), im: self.im.without_traces() }
             }
 
             #[inline(always)]
