@@ -4,22 +4,25 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 use super::bisection::bisect;
+use super::edge_cut::EdgeRefiner;
 use super::flow::Flow;
 use super::graph::{Graph, Groups};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
-use super::edge_cut::EdgeRefiner;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 
-/// Parts up to this size are ordered by minimum degree.
-fn leaf() -> usize { super::tune("LEAF", 120.) as usize }
-/// Unknowns in a cluster.
-fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
+/// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
+const LEAF: usize = 120;
+/// From this size on, separators are worth the search for the smallest ones near by.
+const LARGE: usize = 3000;
+/// How far that goes, in steps.
+const DEPTH: usize = 3;
+/// Passes of the local search. Further ones hardly change anything.
+const PASSES: usize = 2;
 
 /// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
 #[must_use]
-#[inline(never)] pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
-    let _ = coordinates;
+pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -27,7 +30,9 @@ fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
         is_dense[v as usize] = true;
     }
     let mut order: Vec<u32> = (0..n as u32).filter(|&v| !is_dense[v as usize]).collect();
-    let (cluster_of, count) = graph.cluster(clus());
+    // Four of the seven around a vertex of a mesh, eight of the nineteen in the graph of a squared operator.
+    let cluster_size = (2 + graph.neighbours.len() / (3 * n.max(1))).clamp(2, 8);
+    let (cluster_of, count) = graph.cluster(cluster_size);
     let clusters = graph.contract(&cluster_of, count);
     let mut dissection = Dissection {
         labels: vec![NONE; n],
@@ -37,6 +42,7 @@ fn clus() -> usize { super::tune("CLUSTER", 8.) as usize }
         leaf: LeafOrder::new(n),
         place: vec![NONE; count],
         local: vec![NONE; count],
+        positions: coordinates.and_then(|coordinates| representatives(coordinates, &cluster_of, count)),
         base: 0,
         stack: Vec::new(),
         spare: Vec::new(),
@@ -72,16 +78,17 @@ struct Dissection {
     leaf: LeafOrder,
     place: Vec<u32>,
     local: Vec<u32>,
+    positions: Option<Vec<[f64; 3]>>,
     base: u32,
     stack: Vec<Part>,
     spare: Vec<u32>,
 }
 
 impl Dissection {
-    #[inline(never)] fn split(&mut self, order: &mut [u32], part: Part) {
+    fn split(&mut self, order: &mut [u32], part: Part) {
         let range = part.begin..part.end;
         let members = &mut order[range];
-        if members.len() <= leaf() {
+        if members.len() <= LEAF {
             self.leaf.order(&self.graph, members);
             return;
         }
@@ -98,7 +105,11 @@ impl Dissection {
             self.descend(members, &part, &groups, count, count);
             return;
         }
-        let mut sides = bisect(&part.clusters, &mut self.coarse_refiner);
+        let positions: Vec<[f64; 3]> = match &self.positions {
+            Some(positions) => part.ids.iter().map(|&id| positions[id as usize]).collect(),
+            None => Vec::new(),
+        };
+        let sides = bisect(&part.clusters, &positions, &mut self.coarse_refiner);
         // 2: has unknowns next to the other side.
         let at_cut: Vec<bool> = (0..sides.len())
             .map(|v| part.clusters.of(v as u32).iter().any(|&u| sides[u as usize] != sides[v]))
@@ -126,16 +137,10 @@ impl Dissection {
         for &v in &cut.separator {
             self.labels[v as usize] = base + SEPARATOR;
         }
-        sides.clear();
-        let before = cut.weights;
-        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP",4.) as usize, 1);
-        let mid = cut.weights;
-        if members.len() as f64 > super::tune("FLOWM", 3000.) {
-            self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, super::tune("DEPTH", 3.) as usize);
-            let fp2 = super::tune("FP2", 0.) as usize;
-            if fp2 > 0 { self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1); }
+        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, PASSES, 1);
+        if members.len() >= LARGE {
+            self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, DEPTH);
         }
-        if super::tune("SHOW", 1e9) < members.len() as f64 { std::eprintln!("{} {} before {:?} mid {:?} after {:?} rel {:.3}", members.len(), part.ids.len(), before, mid, cut.weights, cut.weights[2] as f64 / (members.len() as f64).sqrt()); }
         if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
             self.order_whole(members);
             return;
@@ -145,7 +150,7 @@ impl Dissection {
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    #[inline(never)] fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
         let groups = Groups::new(group_of, count);
@@ -157,7 +162,7 @@ impl Dissection {
             // The clusters of a part, with what they still hold.
             let mut kept: Vec<u32> = Vec::new();
             let mut weights: Vec<u32> = Vec::new();
-            if end - begin > leaf() {
+            if end - begin > LEAF {
                 for &v in &members[begin..end] {
                     let cluster = self.local[self.cluster_of[v as usize] as usize];
                     let place = &mut self.place[cluster as usize];
@@ -187,6 +192,18 @@ impl Dissection {
             *place = old[new as usize];
         }
     }
+}
+
+/// The position of one unknown of every cluster, or nothing where coordinates are missing or not finite.
+fn representatives(coordinates: &[f64], cluster_of: &[u32], count: usize) -> Option<Vec<[f64; 3]>> {
+    if coordinates.len() != 3 * cluster_of.len() || !coordinates.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut positions = vec![[0.0; 3]; count];
+    for (v, &cluster) in cluster_of.iter().enumerate() {
+        positions[cluster as usize] = [coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]];
+    }
+    Some(positions)
 }
 
 /// The component of every vertex.

@@ -42,7 +42,6 @@ impl Flow {
     }
 
     /// Replaces the separator by the smallest one within `depth` steps, where that is better.
-    #[inline(never)]
     pub(super) fn improve(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, depth: usize) {
         self.collect(graph, labels, base, cut, depth);
         self.saturate(graph);
@@ -79,7 +78,7 @@ impl Flow {
         }
     }
 
-    #[inline(never)] fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
+    fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
         self.band.clear();
         self.band.extend_from_slice(&cut.separator);
         for (i, &v) in self.band.iter().enumerate() {
@@ -118,7 +117,6 @@ impl Flow {
     }
 
     /// Blocking flows on shortest paths until there is none ([Dinic70]).
-    #[inline(never)]
     fn saturate(&mut self, graph: &Graph) {
         while self.measure(graph) {
             for i in 0..self.band.len() {

@@ -16,7 +16,7 @@ pub(super) struct Graph {
 
 impl Graph {
     /// The graph of a square symmetric pattern, and the unknowns of very high degree, which it leaves without edges.
-    #[inline(never)] pub(super) fn new(pattern: &SparsityPattern) -> (Self, Vec<u32>) {
+    pub(super) fn new(pattern: &SparsityPattern) -> (Self, Vec<u32>) {
         let n = pattern.major_dim();
         // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
         let most = (10.0 * (n as f64).sqrt()).max(16.0) as usize;
@@ -59,7 +59,7 @@ impl Graph {
     }
 
     /// The graph whose vertices are `count` clusters of this one's.
-    #[inline(never)] pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
+    pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
         let members = Groups::new(cluster_of, count);
         let mut offsets = Vec::with_capacity(count + 1);
         let mut neighbours: Vec<u32> = Vec::new();
@@ -94,7 +94,7 @@ impl Graph {
     }
 
     /// The graph of some of the vertices, in the given order with the given weights. `place` is scratch for every vertex, all `NONE`.
-    #[inline(never)] pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Self {
+    pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Self {
         for (new, &old) in members.iter().enumerate() {
             place[old as usize] = new as u32;
         }
@@ -122,7 +122,7 @@ impl Graph {
 
     /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns
     /// the cluster of every vertex and the number of clusters.
-    #[inline(never)] pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
+    pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
         let n = self.len();
         let mut cluster_of = vec![NONE; n];
         let mut sizes: Vec<u32> = Vec::new();
@@ -192,14 +192,19 @@ impl Graph {
     }
 
     /// Pairs of vertices joined by their heaviest edges, none heavier than `most`, as clusters.
-    #[inline(never)] pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
+    pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
         let n = self.len();
         let mut cluster_of = vec![NONE; n];
         let mut count = 0;
         let mut at = 0;
         let stride = if stride % n == 0 { 1 } else { stride };
         for step in 0..n as u32 {
-            let v = if stride == 1 { step } else { at = (at + stride) % n; at as u32 };
+            let v = if stride == 1 {
+                step
+            } else {
+                at = (at + stride) % n;
+                at as u32
+            };
             if cluster_of[v as usize] != NONE {
                 continue;
             }
@@ -235,7 +240,7 @@ pub(super) struct Groups {
 
 impl Groups {
     /// A counting sort that keeps the order within a group.
-    #[inline(never)] pub(super) fn new(group_of: &[u32], count: usize) -> Self {
+    pub(super) fn new(group_of: &[u32], count: usize) -> Self {
         let mut offsets = vec![0_u32; count + 1];
         for &group in group_of {
             offsets[group as usize] += 1;

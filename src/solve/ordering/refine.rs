@@ -19,17 +19,21 @@ pub(super) struct Cut {
     pub(super) separator: Vec<u32>,
 }
 
-/// Beyond this share of a part, the difference of the sides counts as much as the separator itself.
+/// Beyond this share of a part, the difference of its sides counts like edges or unknowns that are cut.
 pub(super) const IMBALANCE: f64 = 0.3;
 
+/// What is cut, with a malus for the imbalance. With sides (1 ± d)/2 the work of order n^1.5 below a cut grows by 3/8 d², and
+/// it is about twice the work of the separator, which grows like its cube: together as much as a cut longer by 0.3 d².
+pub(super) fn cost(cut: f64, all: f64, imbalance: f64) -> f64 {
+    let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
+    cut * (1.0 + 0.3 * imbalance * imbalance) + all * excess
+}
+
 impl Cut {
-    /// The separator's weight, with a malus for the imbalance of the sides.
     pub(super) fn cost(&self) -> f64 {
         let [left, right, separator] = self.weights.map(|weight| weight as f64);
         let total = left + right + separator;
-        let imbalance = (left - right).abs() / total;
-        let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
-        separator * (1.0 + 0.3 * imbalance * imbalance) + total * excess
+        cost(separator, total, (left - right).abs() / total)
     }
 }
 
@@ -60,7 +64,7 @@ impl Refiner {
     }
 
     /// Improves a cut until nothing changes or `passes` are over.
-    #[inline(never)] pub(super) fn refine(
+    pub(super) fn refine(
         &mut self,
         graph: &Graph,
         labels: &mut [u32],
@@ -78,7 +82,6 @@ impl Refiner {
         }
     }
 
-    #[inline(never)]
     fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, unit: i64) {
         self.pass += 1;
         self.log.clear();
@@ -90,7 +93,7 @@ impl Refiner {
         let mut best_length = 0;
         let mut best_weights = cut.weights;
         let mut stall = 0;
-        let patience = ((separator.len() as f64 * super::tune("PS",0.5)) as usize).clamp(super::tune("PMIN",30.) as usize, super::tune("PMAX",200.) as usize);
+        let patience = (separator.len() / 2).clamp(30, 200);
         while stall < patience {
             let Some((v, side)) = self.choose(cut) else { break };
             self.shift(graph, labels, base, cut, v, side, unit);
@@ -101,14 +104,7 @@ impl Refiner {
                 stall += 1;
             }
         }
-        for &entry in &self.log {
-            let v = entry as u32;
-            if self.moved[v as usize] != self.pass || !self.queues[0].holds(v) {
-                separator.push(v);
-            } else {
-                separator.push(v);
-            }
-        }
+        separator.extend(self.log.iter().map(|&entry| entry as u32));
         for &v in &separator {
             for queue in &mut self.queues {
                 if queue.holds(v) {
