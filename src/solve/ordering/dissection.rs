@@ -141,7 +141,8 @@ impl Dissection {
         if members.len() >= LARGE {
             self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, DEPTH);
         }
-        if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
+        // Graphs that no small separator cuts are better left to minimum degree.
+        if cut.weights[0].min(cut.weights[1]) < cut.weights[2] {
             self.order_whole(members);
             return;
         }
