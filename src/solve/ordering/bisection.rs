@@ -1,4 +1,4 @@
-//! A small edge cut of a weighted graph, by levels ([Hendrickson95]): the graph is contracted until few vertices are left,
+//! A small edge cut of a weighted graph, by levels (\[Hendrickson95\]): the graph is contracted until few vertices are left,
 //! those are cut, and the cut is refined while the graph grows again.
 
 use super::edge_cut::{EdgeCut, EdgeRefiner};

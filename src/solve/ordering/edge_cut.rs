@@ -41,7 +41,8 @@ impl EdgeCut {
 /// Buckets of a queue; gains are counted from the middle.
 const BUCKETS: i64 = 512;
 
-/// Fiduccia–Mattheyses ([Fiduccia82]).
+/// The search of \[Fiduccia82\]: the vertex with the largest gain changes sides, once in each pass, and the best cut on the way is
+/// kept.
 pub(super) struct EdgeRefiner {
     /// Vertices at the cut by side and gain of moving them.
     queues: [BucketQueue; 2],
@@ -93,7 +94,7 @@ impl EdgeRefiner {
         }
         let mut best = cut.cost();
         let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
-        let patience = (count / 2).clamp(30, 200);
+        let patience = (count / 2).clamp(12, 200);
         while stall < patience {
             let Some(v) = self.choose(cut) else { break };
             let from = labels[v as usize];

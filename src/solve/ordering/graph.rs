@@ -4,6 +4,9 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 
+/// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
+const MANY: usize = 64;
+
 /// An undirected graph without loops, every edge stored at both ends.
 pub(super) struct Graph {
     pub(super) offsets: Vec<u32>,
@@ -142,7 +145,7 @@ impl Graph {
                 if !whole && free.len() < wanted / 2 && self.join(v, 2 * most as u32, &mut cluster_of, &mut sizes) {
                     continue;
                 }
-                if free.len() > most - 1 {
+                if free.len() > most - 1 && self.of(v).len() <= MANY {
                     for &u in self.of(v) {
                         mark[u as usize] = v;
                     }
@@ -152,8 +155,8 @@ impl Graph {
                         *entry |= (strangers as u64) << 32;
                     }
                     free.sort_unstable();
-                    free.truncate(most - 1);
                 }
+                free.truncate(most - 1);
                 let cluster = sizes.len() as u32;
                 cluster_of[v as usize] = cluster;
                 for &u in &free {
@@ -172,10 +175,11 @@ impl Graph {
         let mut around = [(NONE, 0_u32); 8];
         for &u in self.of(v) {
             let cluster = cluster_of[u as usize];
-            if cluster != NONE && sizes[cluster as usize] < most {
-                if let Some(entry) = around.iter_mut().find(|entry| entry.0 == cluster || entry.0 == NONE) {
-                    *entry = (cluster, entry.1 + 1);
-                }
+            if cluster != NONE
+                && sizes[cluster as usize] < most
+                && let Some(entry) = around.iter_mut().find(|entry| entry.0 == cluster || entry.0 == NONE)
+            {
+                *entry = (cluster, entry.1 + 1);
             }
         }
         let mut best = around[0];
@@ -191,20 +195,17 @@ impl Graph {
         best.0 != NONE
     }
 
-    /// Pairs of vertices joined by their heaviest edges, none heavier than `most`, as clusters.
+    /// Pairs of vertices joined by their heaviest edges (\[Karypis98\]), none heavier than `most`, as clusters. Vertices choose in
+    /// steps of `stride`.
     pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
         let n = self.len();
         let mut cluster_of = vec![NONE; n];
         let mut count = 0;
-        let mut at = 0;
-        let stride = if stride % n == 0 { 1 } else { stride };
-        for step in 0..n as u32 {
-            let v = if stride == 1 {
-                step
-            } else {
-                at = (at + stride) % n;
-                at as u32
-            };
+        // A prime; where it divides the size, it does not come by every vertex.
+        let stride = if n.is_multiple_of(stride) { 1 } else { stride };
+        let mut v = 0;
+        for _ in 0..n {
+            v = ((v as usize + stride) % n) as u32;
             if cluster_of[v as usize] != NONE {
                 continue;
             }
@@ -220,13 +221,6 @@ impl Graph {
             cluster_of[v as usize] = count;
             cluster_of[best as usize] = count;
             count += 1;
-        }
-        // Where the stride divides the size, some are left.
-        for v in 0..n {
-            if cluster_of[v] == NONE {
-                cluster_of[v] = count;
-                count += 1;
-            }
         }
         (cluster_of, count as usize)
     }

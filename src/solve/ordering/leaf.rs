@@ -88,13 +88,13 @@ impl LeafOrder {
                 // Neither the unknown itself nor the pivot.
                 row[i / 64] &= !(1 << (i % 64));
                 row[pivot / 64] &= !(1 << (pivot % 64));
-                self.scores[i] = score(degree - 2, size - 1);
+                self.scores[i] = score(degree.saturating_sub(2), size.saturating_sub(1));
             }
         }
     }
 }
 
-/// Twice the pairs of neighbours less those that the last pivot has linked: near to the fill ([Rothberg98]), but with some
+/// Twice the pairs of neighbours less those that the last pivot has linked: near to the fill (\[Rothberg98\]), but with some
 /// weight on the degree, which is better here than either.
 fn score(degree: u32, linked: u32) -> u32 {
     (2 * degree * degree.saturating_sub(1)).saturating_sub(linked * linked.saturating_sub(1))
