@@ -9,7 +9,7 @@ use super::refine::{LEFT, RIGHT};
 const COARSEST: usize = 40;
 /// Cuts of the coarsest graph to choose from. Below four the cuts get worse, above they hardly get better.
 const TRIES: usize = 4;
-/// Passes over the coarsest and over every other graph. Further ones hardly change anything.
+/// Passes over a graph at most. Further ones hardly change anything.
 const PASSES: usize = 3;
 /// Vertices are visited in steps of this prime: neighbours one after the other would grow chains of pairs.
 const STRIDE: usize = 104_729;
@@ -66,11 +66,12 @@ fn grow(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
         let mut sides = vec![RIGHT; n];
         sides[i * n / TRIES] = LEFT;
         let mut cut = EdgeCut::of(graph, &sides);
-        refiner.refine(graph, &mut sides, &mut cut, PASSES);
+        refiner.refine(graph, &mut sides, &mut cut, 1);
         if i == 0 || cut.cost() < best.1.cost() {
             best = (sides, cut);
         }
     }
+    refiner.refine(graph, &mut best.0, &mut best.1, PASSES);
     best
 }
 

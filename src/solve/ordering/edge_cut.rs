@@ -46,7 +46,9 @@ const BUCKETS: i64 = 512;
 pub(super) struct EdgeRefiner {
     /// Vertices at the cut by side and gain of moving them.
     queues: [BucketQueue; 2],
+    /// By how much the cut shrinks where a vertex changes sides.
     gains: Vec<i64>,
+    /// The pass in which a vertex was last moved.
     moved: Vec<u32>,
     pass: u32,
     log: Vec<u32>,
@@ -63,9 +65,10 @@ impl EdgeRefiner {
         }
     }
 
+    /// Improves a cut until that fails or `passes` are over.
     pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
-        // A sixteenth of what a vertex has on average.
-        let unit = (cut.all / (16 * graph.len() as i64)).max(1);
+        // Gains in buckets of about a sixteenth of the edges that a vertex has on average; a power of two, as divisions are slow.
+        let unit = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
         let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
         for _ in 0..passes {
             let before = cut.cost();
@@ -76,9 +79,9 @@ impl EdgeRefiner {
         }
     }
 
-    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: i64, boundary: &mut Vec<u32>) {
-        self.pass += 1;
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: u32, boundary: &mut Vec<u32>) {
         self.log.clear();
+        // Once as a mark, to list every vertex once.
         self.pass += 1;
         boundary.retain(|&v| {
             core::mem::replace(&mut self.moved[v as usize], self.pass) != self.pass
@@ -87,6 +90,7 @@ impl EdgeRefiner {
         self.pass += 1;
         let count = boundary.len();
         if boundary.is_empty() {
+            // Everything is on one side; something has to begin.
             boundary.push(0);
         }
         for &v in &*boundary {
@@ -94,6 +98,7 @@ impl EdgeRefiner {
         }
         let mut best = cut.cost();
         let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
+        // Moves without a better cut, once the sides are somewhat alike. More patience takes longer and gains nothing.
         let patience = (count / 2).clamp(12, 200);
         while stall < patience {
             let Some(v) = self.choose(cut) else { break };
@@ -164,11 +169,11 @@ impl EdgeRefiner {
         best.map(|(v, _)| v)
     }
 
-    fn key(gain: i64, unit: i64) -> u32 {
-        (BUCKETS / 2 - gain / unit).clamp(0, BUCKETS - 1) as u32
+    fn key(gain: i64, unit: u32) -> u32 {
+        (BUCKETS / 2 - (gain >> unit)).clamp(0, BUCKETS - 1) as u32
     }
 
-    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: i64) {
+    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: u32) {
         let mut gain = 0;
         for edge in graph.range(v) {
             let weight = i64::from(graph.edge_weight(edge));
