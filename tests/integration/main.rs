@@ -14,6 +14,7 @@ mod layering;
 mod level_sets;
 mod mesh;
 mod operators;
+mod ordering;
 mod readme;
 mod smooth;
 mod smooth_iterative;

@@ -1,77 +1,114 @@
-//! An edge cut of a small graph, by levels.
+//! A small edge cut of a weighted graph, by levels (\[Hendrickson95\]): the graph is contracted until few vertices are left,
+//! those are cut, and the cut is refined while the graph grows again.
 
 use super::edge_cut::{EdgeCut, EdgeRefiner};
 use super::graph::Graph;
 use super::refine::{LEFT, RIGHT};
 
-/// Graphs below this size are cut directly.
-fn coarsest_size() -> usize {
-    super::tune("COARSEST", 80.) as usize
-}
-fn tries() -> usize {
-    super::tune("TRIES", 4.) as usize
-}
+/// Graphs up to this size are cut directly: larger ones give no better cuts, but take longer.
+const COARSEST: usize = 40;
+/// Cuts of the coarsest graph to choose from. Below four the cuts get worse, above they hardly get better.
+const TRIES: usize = 4;
+/// Passes over a graph at most. Further ones hardly change anything.
+const PASSES: usize = 3;
+/// Vertices are visited in steps of this prime: neighbours one after the other would grow chains of pairs.
+const STRIDE: usize = 104_729;
+/// Graphs from this size on, which matter most and are few, are also cut across the axes.
+const LARGE: usize = 1000;
 
 /// Cuts a connected graph in two: the side of every vertex.
-pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
-    let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
-    let all = all as f64;
-    let tries = if graph.len() as f64 > super::tune("VMIN", 0.) { super::tune("V", 1.) as usize } else { 1 };
-    let s0 = super::tune("S0", 2.) as usize;
-    let mut best = bisect_once(graph, refiner, [1, 7919, 104_729, 1_299_709, 15_485_863][s0 % 5], s0);
-    for variant in 1..tries {
-        let other = bisect_once(graph, refiner, [1, 7919, 104_729, 1_299_709, 15_485_863][(variant + s0) % 5], variant);
-        if other.1.cost(all) < best.1.cost(all) {
-            best = other;
+pub(super) fn bisect(graph: &Graph, positions: &[[f64; 3]], refiner: &mut EdgeRefiner) -> Vec<u32> {
+    let mut best = by_levels(graph, refiner);
+    if graph.len() >= LARGE {
+        let mut keys = Vec::with_capacity(positions.len());
+        for axis in 0..if positions.is_empty() { 0 } else { 3 } {
+            let other = across(graph, positions, axis, &mut keys, refiner);
+            if other.1.cost() < best.1.cost() {
+                best = other;
+            }
         }
     }
     best.0
 }
-#[inline(never)]
-fn bisect_once(graph: &Graph, refiner: &mut EdgeRefiner, stride: usize, variant: usize) -> (Vec<u32>, EdgeCut) {
+
+fn by_levels(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
     let total: u32 = graph.weights.iter().sum();
-    let most = (total / (coarsest_size() as u32 / 2)).max(2);
+    // Heavier vertices could not be balanced.
+    let most = (total / (COARSEST as u32 / 2)).max(2);
     let mut levels: Vec<(Graph, Vec<u32>)> = Vec::new();
     loop {
         let finest = levels.last().map_or(graph, |level| &level.0);
-        if finest.len() <= coarsest_size() {
+        if finest.len() <= COARSEST {
             break;
         }
-        let (cluster_of, count) = finest.pairs(most, stride);
+        let (cluster_of, count) = finest.pairs(most, STRIDE);
+        // Stars do not shrink.
         if count * 10 > finest.len() * 9 {
             break;
         }
         let coarser = finest.contract(&cluster_of, count);
         levels.push((coarser, cluster_of));
     }
-    let coarsest = levels.last().map_or(graph, |level| &level.0);
-    let (mut labels, mut cut) = first(coarsest, refiner, variant);
+    let (mut sides, mut cut) = grow(levels.last().map_or(graph, |level| &level.0), refiner);
     for i in (0..levels.len()).rev() {
         let finer = if i == 0 { graph } else { &levels[i - 1].0 };
-        labels = levels[i].1.iter().map(|&cluster| labels[cluster as usize]).collect();
-        refiner.refine(finer, &mut labels, &mut cut, super::tune("CP", 3.) as usize);
+        sides = levels[i].1.iter().map(|&cluster| sides[cluster as usize]).collect();
+        refiner.refine(finer, &mut sides, &mut cut, PASSES);
     }
-    (labels, cut)
+    (sides, cut)
 }
 
 /// The best of several cuts that grow from different vertices.
-#[inline(never)]
-fn first(graph: &Graph, refiner: &mut EdgeRefiner, variant: usize) -> (Vec<u32>, EdgeCut) {
+fn grow(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
     let n = graph.len();
-    let total: i64 = graph.weights.iter().map(|&weight| i64::from(weight)).sum();
-    let mut best: Option<(Vec<u32>, EdgeCut)> = None;
-    let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
-    for i in 0..tries() {
-        let seed = (i * n / tries() + variant) % n;
-        let mut labels = vec![RIGHT; n];
-        let own = i64::from(graph.weights[seed]);
-        let edges = graph.range(seed as u32).map(|edge| i64::from(graph.edge_weight(edge))).sum();
-        let mut cut = EdgeCut { weights: [own, total - own], edges };
-        labels[seed] = LEFT;
-        refiner.refine(graph, &mut labels, &mut cut, 6);
-        if best.as_ref().is_none_or(|(_, other)| cut.cost(all as f64) < other.cost(all as f64)) {
-            best = Some((labels, cut));
+    let mut best: (Vec<u32>, EdgeCut) = Default::default();
+    for i in 0..TRIES {
+        let mut sides = vec![RIGHT; n];
+        sides[i * n / TRIES] = LEFT;
+        let mut cut = EdgeCut::of(graph, &sides);
+        refiner.refine(graph, &mut sides, &mut cut, 1);
+        if i == 0 || cut.cost() < best.1.cost() {
+            best = (sides, cut);
         }
     }
-    best.unwrap_or_default()
+    refiner.refine(graph, &mut best.0, &mut best.1, PASSES);
+    best
+}
+
+/// A cut that halves the weight across an axis.
+fn across(
+    graph: &Graph,
+    positions: &[[f64; 3]],
+    axis: usize,
+    keys: &mut Vec<u64>,
+    refiner: &mut EdgeRefiner,
+) -> (Vec<u32>, EdgeCut) {
+    keys.clear();
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for position in positions {
+        low = low.min(position[axis]);
+        high = high.max(position[axis]);
+    }
+    // Thirty-two bits of the position above, the vertex below.
+    let scale = f64::from(u32::MAX) / (high - low).max(f64::MIN_POSITIVE);
+    keys.extend(
+        positions
+            .iter()
+            .enumerate()
+            .map(|(v, position)| u64::from(((position[axis] - low) * scale) as u32) << 32 | v as u64),
+    );
+    keys.sort_unstable();
+    let half = graph.weights.iter().map(|&weight| u64::from(weight)).sum::<u64>() / 2;
+    let mut sides = vec![RIGHT; graph.len()];
+    let mut sum = 0;
+    for &key in &*keys {
+        if sum >= half {
+            break;
+        }
+        sides[key as u32 as usize] = LEFT;
+        sum += u64::from(graph.weights[key as u32 as usize]);
+    }
+    let mut cut = EdgeCut::of(graph, &sides);
+    refiner.refine(graph, &mut sides, &mut cut, PASSES);
+    (sides, cut)
 }

@@ -11,20 +11,25 @@ use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 
-/// Parts up to this size are ordered by minimum degree.
-fn leaf() -> usize {
-    super::tune("LEAF", 120.) as usize
-}
-/// Unknowns in a cluster.
-fn clus() -> usize {
-    super::tune("CLUSTER", 8.) as usize
-}
+/// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
+const LEAF: usize = 120;
+/// From this size on, separators are worth the search for the smallest ones near by.
+const LARGE: usize = 3000;
+/// How far that goes, in steps.
+const DEPTH: usize = 2;
+/// Passes of the local search. Further ones hardly change anything.
+const PASSES: usize = 2;
 
-/// Nested dissection of the graph of a square symmetric pattern (\[George73\]).
+/// Nested dissection (\[George73\]) of the graph of a square symmetric pattern: a small set of unknowns that separates the rest
+/// into two parts of similar size comes last, and each of the parts is ordered alike, until minimum degree takes over. Leaves
+/// less fill than [`minimum_degree`](super::minimum_degree) on large meshes, and a balanced elimination tree. Returns the old
+/// ids in their new order; the same for the same pattern everywhere.
+///
+/// Unknowns are gathered into clusters once. A separator begins as a small edge cut between clusters, found by levels, and is
+/// refined among the unknowns themselves. `coordinates`, three per unknown, only add cuts across the axes to choose from; they
+/// are left out where they are not finite or not of that number.
 #[must_use]
-#[inline(never)]
 pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
-    let _ = coordinates;
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -32,16 +37,19 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
         is_dense[v as usize] = true;
     }
     let mut order: Vec<u32> = (0..n as u32).filter(|&v| !is_dense[v as usize]).collect();
-    let (cluster_of, count) = graph.cluster(clus());
+    // Four of the seven around a vertex of a mesh, eight of the nineteen in the graph of a squared operator.
+    let cluster_size = (2 + graph.neighbours.len() / (3 * n.max(1))).clamp(2, 8);
+    let (cluster_of, count) = graph.cluster(cluster_size);
     let clusters = graph.contract(&cluster_of, count);
     let mut dissection = Dissection {
         labels: vec![NONE; n],
         refiner: Refiner::new(n),
         flow: Flow::new(n),
-        coarse_refiner: EdgeRefiner::new(count),
+        cluster_refiner: EdgeRefiner::new(count),
         leaf: LeafOrder::new(n),
         place: vec![NONE; count],
         local: vec![NONE; count],
+        positions: coordinates.and_then(|coordinates| representatives(coordinates, &cluster_of, count)),
         base: 0,
         stack: Vec::new(),
         spare: Vec::new(),
@@ -51,7 +59,7 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
     let end = order.len();
     dissection.stack.push(Part { begin: 0, end, ids: (0..count as u32).collect(), clusters });
     while let Some(part) = dissection.stack.pop() {
-        dissection.split(&mut order, part);
+        dissection.split(&mut order, &part);
     }
     order.extend_from_slice(&dense);
     order
@@ -61,109 +69,105 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
 struct Part {
     begin: usize,
     end: usize,
-    /// The clusters' ids, ...
+    /// The clusters that they belong to.
     ids: Vec<u32>,
-    /// ... and their graph.
+    /// The graph of these, with the weights of what belongs to this part. It has all edges of the part, and perhaps some more.
     clusters: Graph,
 }
 
 struct Dissection {
     graph: Graph,
     cluster_of: Vec<u32>,
+    /// Where clusters are.
+    positions: Option<Vec<[f64; 3]>>,
+    /// The side of an unknown: the base of its part and `LEFT`, `RIGHT` or `SEPARATOR`. Unknowns with lower labels are in
+    /// other parts or in separators.
     labels: Vec<u32>,
+    base: u32,
     refiner: Refiner,
     flow: Flow,
-    coarse_refiner: EdgeRefiner,
+    cluster_refiner: EdgeRefiner,
     leaf: LeafOrder,
-    place: Vec<u32>,
+    /// The vertex of a cluster in the graph of the current part.
     local: Vec<u32>,
-    base: u32,
-    stack: Vec<Part>,
+    /// Scratch for every cluster, all `NONE`.
+    place: Vec<u32>,
+    /// Scratch for the unknowns of a part.
     spare: Vec<u32>,
+    /// Parts to do.
+    stack: Vec<Part>,
 }
 
 impl Dissection {
-    #[inline(never)]
-    fn split(&mut self, order: &mut [u32], part: Part) {
-        let range = part.begin..part.end;
-        let members = &mut order[range];
-        if members.len() <= leaf() {
+    /// Orders a small part; cuts a larger one in two and leaves these for later.
+    fn split(&mut self, order: &mut [u32], part: &Part) {
+        let members = &mut order[part.begin..part.end];
+        if members.len() <= LEAF {
             self.leaf.order(&self.graph, members);
             return;
         }
         for (i, &id) in part.ids.iter().enumerate() {
             self.local[id as usize] = i as u32;
         }
-        let component_of = components(&part.clusters);
-        let count = component_of.iter().max().map_or(0, |&last| last as usize + 1);
+        let (component_of, count) = components(&part.clusters);
         if count > 1 {
-            let groups: Vec<u32> = members
-                .iter()
-                .map(|&v| component_of[self.local[self.cluster_of[v as usize] as usize] as usize])
-                .collect();
-            self.descend(members, &part, &groups, count, count);
+            let groups: Vec<u32> = members.iter().map(|&v| component_of[self.cluster(v)]).collect();
+            self.descend(members, part, &groups, count, count);
             return;
         }
-        let mut sides = bisect(&part.clusters, &mut self.coarse_refiner);
-        // 2: has unknowns next to the other side.
-        let at_cut: Vec<bool> = (0..sides.len())
-            .map(|v| part.clusters.of(v as u32).iter().any(|&u| sides[u as usize] != sides[v]))
-            .collect();
+        let positions: Vec<[f64; 3]> = match &self.positions {
+            Some(positions) => part.ids.iter().map(|&id| positions[id as usize]).collect(),
+            None => Vec::new(),
+        };
+        let sides = bisect(&part.clusters, &positions, &mut self.cluster_refiner);
         self.base += LABELS;
-        let base = self.base;
-        for &v in &*members {
-            let cluster = self.local[self.cluster_of[v as usize] as usize] as usize;
-            self.labels[v as usize] = base + sides[cluster];
+        let mut cut = self.separate(members, &part.clusters, &sides);
+        self.refiner.refine(&self.graph, &mut self.labels, self.base, &mut cut, PASSES);
+        if members.len() >= LARGE {
+            self.flow.improve(&self.graph, &mut self.labels, self.base, &mut cut, DEPTH);
         }
-        let mut cut = Cut::default();
-        for &v in &*members {
-            let cluster = self.local[self.cluster_of[v as usize] as usize] as usize;
-            let side = sides[cluster];
-            if at_cut[cluster] {
-                let across = base + 1 - side;
-                if self.graph.of(v).iter().any(|&u| self.labels[u as usize] == across) {
-                    cut.separator.push(v);
-                    continue;
-                }
-            }
-            cut.weights[side as usize] += 1;
-        }
-        cut.weights[2] = cut.separator.len() as i64;
-        for &v in &cut.separator {
-            self.labels[v as usize] = base + SEPARATOR;
-        }
-        sides.clear();
-        let before = cut.weights;
-        self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, super::tune("FP", 4.) as usize, 1);
-        let mid = cut.weights;
-        if members.len() as f64 > super::tune("FLOWM", 3000.) {
-            self.flow.improve(&self.graph, &mut self.labels, base, &mut cut, super::tune("DEPTH", 3.) as usize);
-            let fp2 = super::tune("FP2", 0.) as usize;
-            if fp2 > 0 {
-                self.refiner.refine(&self.graph, &mut self.labels, base, &mut cut, fp2, 1);
-            }
-        }
-        if super::tune("SHOW", 1e9) < members.len() as f64 {
-            std::eprintln!(
-                "{} {} before {:?} mid {:?} after {:?} rel {:.3}",
-                members.len(),
-                part.ids.len(),
-                before,
-                mid,
-                cut.weights,
-                cut.weights[2] as f64 / (members.len() as f64).sqrt()
-            );
-        }
-        if cut.weights[0].max(cut.weights[1]) * 20 > members.len() as i64 * 19 {
+        let smaller = cut.sizes[0].min(cut.sizes[1]) as usize;
+        // Large parts of meshes do with a few hundredths. What needs a sixth, as random graphs do, is better left to minimum degree.
+        let is_thick = members.len() >= LARGE / 3 && cut.separator.len() * 6 > members.len();
+        if smaller < cut.separator.len() || smaller * 50 < members.len() || is_thick {
             self.order_whole(members);
             return;
         }
-        let groups: Vec<u32> = members.iter().map(|&v| self.labels[v as usize] - base).collect();
-        self.descend(members, &part, &groups, 3, 2);
+        let groups: Vec<u32> = members.iter().map(|&v| self.labels[v as usize] - self.base).collect();
+        self.descend(members, part, &groups, 3, 2);
+    }
+
+    fn cluster(&self, v: u32) -> usize {
+        self.local[self.cluster_of[v as usize] as usize] as usize
+    }
+
+    /// Labels the unknowns of a part by the sides of their clusters; those next to the other side, on both sides, make a first
+    /// separator, twice as thick as needed.
+    fn separate(&mut self, members: &[u32], clusters: &Graph, sides: &[u32]) -> Cut {
+        let is_at_cut: Vec<bool> = (0..sides.len())
+            .map(|c| clusters.of(c as u32).iter().any(|&other| sides[other as usize] != sides[c]))
+            .collect();
+        for &v in members {
+            self.labels[v as usize] = self.base + sides[self.cluster(v)];
+        }
+        let mut cut = Cut::default();
+        for &v in members {
+            let cluster = self.cluster(v);
+            let across = self.base + 1 - sides[cluster];
+            if is_at_cut[cluster] && self.graph.of(v).iter().any(|&u| self.labels[u as usize] == across) {
+                cut.separator.push(v);
+            } else {
+                cut.sizes[sides[cluster] as usize] += 1;
+            }
+        }
+        cut.sizes[SEPARATOR as usize] = cut.separator.len() as u32;
+        for &v in &cut.separator {
+            self.labels[v as usize] = self.base + SEPARATOR;
+        }
+        cut
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    #[inline(never)]
     fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
@@ -176,7 +180,7 @@ impl Dissection {
             // The clusters of a part, with what they still hold.
             let mut kept: Vec<u32> = Vec::new();
             let mut weights: Vec<u32> = Vec::new();
-            if end - begin > leaf() {
+            if end - begin > LEAF {
                 for &v in &members[begin..end] {
                     let cluster = self.local[self.cluster_of[v as usize] as usize];
                     let place = &mut self.place[cluster as usize];
@@ -208,8 +212,20 @@ impl Dissection {
     }
 }
 
-/// The component of every vertex.
-fn components(graph: &Graph) -> Vec<u32> {
+/// The position of one unknown of every cluster, or nothing where coordinates are missing or not finite.
+fn representatives(coordinates: &[f64], cluster_of: &[u32], count: usize) -> Option<Vec<[f64; 3]>> {
+    if coordinates.len() != 3 * cluster_of.len() || !coordinates.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut positions = vec![[0.0; 3]; count];
+    for (v, &cluster) in cluster_of.iter().enumerate() {
+        positions[cluster as usize] = [coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]];
+    }
+    Some(positions)
+}
+
+/// The component of every vertex, and the number of components.
+fn components(graph: &Graph) -> (Vec<u32>, usize) {
     let mut component_of = vec![NONE; graph.len()];
     let mut count = 0;
     let mut stack = Vec::new();
@@ -228,5 +244,5 @@ fn components(graph: &Graph) -> Vec<u32> {
             count += 1;
         }
     }
-    component_of
+    (component_of, count as usize)
 }

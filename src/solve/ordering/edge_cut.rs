@@ -2,33 +2,53 @@
 
 use super::graph::Graph;
 use super::queue::BucketQueue;
-use super::refine::{IMBALANCE, LEFT, RIGHT};
+use super::refine::{IMBALANCE, LEFT, RIGHT, cost};
 
 /// A cut between two sides.
 #[derive(Clone, Copy, Default)]
 pub(super) struct EdgeCut {
     /// Weights of left and right.
-    pub(super) weights: [i64; 2],
+    weights: [i64; 2],
     /// Weight of the edges between.
-    pub(super) edges: i64,
+    edges: i64,
+    /// Weight of all edges, at both ends.
+    all: i64,
 }
 
 impl EdgeCut {
-    pub(super) fn cost(&self, all_edges: f64) -> f64 {
+    pub(super) fn of(graph: &Graph, sides: &[u32]) -> Self {
+        let mut cut = Self::default();
+        for v in 0..graph.len() as u32 {
+            cut.weights[sides[v as usize] as usize] += i64::from(graph.weights[v as usize]);
+            for edge in graph.range(v) {
+                let weight = i64::from(graph.edge_weight(edge));
+                cut.all += weight;
+                if sides[v as usize] < sides[graph.neighbours[edge] as usize] {
+                    cut.edges += weight;
+                }
+            }
+        }
+        cut
+    }
+
+    /// The weight of the cut edges, with a malus for the imbalance of the sides.
+    pub(super) fn cost(&self) -> f64 {
         let [left, right] = self.weights.map(|weight| weight as f64);
-        let imbalance = (left - right).abs() / (left + right);
-        let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
-        self.edges as f64 * (1.0 + super::tune("BAL", 0.3) * imbalance * imbalance) + all_edges * excess
+        cost(self.edges as f64, self.all as f64, (left - right).abs() / (left + right))
     }
 }
 
+/// Buckets of a queue; gains are counted from the middle.
 const BUCKETS: i64 = 512;
 
-/// Fiduccia–Mattheyses ([Fiduccia82]).
+/// The search of \[Fiduccia82\]: the vertex with the largest gain changes sides, once in each pass, and the best cut on the way is
+/// kept.
 pub(super) struct EdgeRefiner {
     /// Vertices at the cut by side and gain of moving them.
     queues: [BucketQueue; 2],
+    /// By how much the cut shrinks where a vertex changes sides.
     gains: Vec<i64>,
+    /// The pass in which a vertex was last moved.
     moved: Vec<u32>,
     pass: u32,
     log: Vec<u32>,
@@ -45,32 +65,23 @@ impl EdgeRefiner {
         }
     }
 
-    #[inline(never)]
+    /// Improves a cut until that fails or `passes` are over.
     pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
-        let all: i64 = graph.edge_weights.iter().map(|&weight| i64::from(weight)).sum();
-        let unit = (all / (16 * graph.len() as i64)).max(1);
+        // Gains in buckets of about a sixteenth of the edges that a vertex has on average; a power of two, as divisions are slow.
+        let unit = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
         let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
         for _ in 0..passes {
-            let before = cut.cost(all as f64);
-            self.run(graph, labels, cut, unit, all as f64, &mut boundary);
-            if cut.cost(all as f64) >= before {
+            let before = cut.cost();
+            self.run(graph, labels, cut, unit, &mut boundary);
+            if cut.cost() >= before {
                 break;
             }
         }
     }
 
-    #[inline(never)]
-    fn run(
-        &mut self,
-        graph: &Graph,
-        labels: &mut [u32],
-        cut: &mut EdgeCut,
-        unit: i64,
-        all: f64,
-        boundary: &mut Vec<u32>,
-    ) {
-        self.pass += 1;
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: u32, boundary: &mut Vec<u32>) {
         self.log.clear();
+        // Once as a mark, to list every vertex once.
         self.pass += 1;
         boundary.retain(|&v| {
             core::mem::replace(&mut self.moved[v as usize], self.pass) != self.pass
@@ -79,15 +90,16 @@ impl EdgeRefiner {
         self.pass += 1;
         let count = boundary.len();
         if boundary.is_empty() {
+            // Everything is on one side; something has to begin.
             boundary.push(0);
         }
         for &v in &*boundary {
             self.enter(graph, labels, v, unit);
         }
-        let mut best = cut.cost(all);
+        let mut best = cut.cost();
         let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
-        let patience = ((count as f64 * super::tune("EPS", 0.5)) as usize)
-            .clamp(super::tune("EPMIN", 30.) as usize, super::tune("EPMAX", 200.) as usize);
+        // Moves without a better cut, once the sides are somewhat alike. More patience takes longer and gains nothing.
+        let patience = (count / 2).clamp(12, 200);
         while stall < patience {
             let Some(v) = self.choose(cut) else { break };
             let from = labels[v as usize];
@@ -119,7 +131,7 @@ impl EdgeRefiner {
                     self.enter(graph, labels, u, unit);
                 }
             }
-            let cost = cut.cost(all);
+            let cost = cut.cost();
             if cost < best {
                 (best, best_length, best_cut, stall) = (cost, self.log.len(), *cut, 0);
             } else if cut.weights[0].min(cut.weights[1]) * 4 > cut.weights[0].max(cut.weights[1]) {
@@ -157,11 +169,11 @@ impl EdgeRefiner {
         best.map(|(v, _)| v)
     }
 
-    fn key(gain: i64, unit: i64) -> u32 {
-        (BUCKETS / 2 - gain / unit).clamp(0, BUCKETS - 1) as u32
+    fn key(gain: i64, unit: u32) -> u32 {
+        (BUCKETS / 2 - (gain >> unit)).clamp(0, BUCKETS - 1) as u32
     }
 
-    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: i64) {
+    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: u32) {
         let mut gain = 0;
         for edge in graph.range(v) {
             let weight = i64::from(graph.edge_weight(edge));

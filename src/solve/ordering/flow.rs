@@ -8,12 +8,15 @@ use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
 const SOURCE: u32 = u32::MAX - 1;
 const SINK: u32 = u32::MAX - 2;
 
-/// Finds as many paths as possible that share no vertex through a band around the separator; the smallest
+/// As in \[Ashcraft98\]: finds as many paths as possible that share no vertex through a band around the separator; the smallest
 /// separator in the band has one vertex on each of them (Menger's theorem).
 pub(super) struct Flow {
     /// The place of a vertex in the band.
     slots: Vec<u32>,
     band: Vec<u32>,
+    /// The neighbours of every vertex of the band within it.
+    offsets: Vec<u32>,
+    neighbours: Vec<u32>,
     /// The path through a vertex of the band: where it comes from and where it goes.
     previous: Vec<u32>,
     next: Vec<u32>,
@@ -31,6 +34,8 @@ impl Flow {
         Self {
             slots: vec![NONE; n],
             band: Vec::new(),
+            offsets: Vec::new(),
+            neighbours: Vec::new(),
             previous: Vec::new(),
             next: Vec::new(),
             is_source: Vec::new(),
@@ -42,18 +47,16 @@ impl Flow {
     }
 
     /// Replaces the separator by the smallest one within `depth` steps, where that is better.
-    #[inline(never)]
     pub(super) fn improve(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, depth: usize) {
         self.collect(graph, labels, base, cut, depth);
-        self.saturate(graph);
+        self.saturate();
         // What the sources still reach lies left of the separator.
-        let mut new = Cut { weights: cut.weights, separator: Vec::new() };
+        let mut new = Cut { sizes: cut.sizes, separator: Vec::new() };
         for i in 0..self.band.len() {
             let v = self.band[i];
-            let weight = i64::from(graph.weights[v as usize]);
-            new.weights[(labels[v as usize] - base) as usize] -= weight;
+            new.sizes[(labels[v as usize] - base) as usize] -= 1;
             let label = self.label(i);
-            new.weights[label as usize] += weight;
+            new.sizes[label as usize] += 1;
             if label == SEPARATOR {
                 new.separator.push(v);
             }
@@ -79,7 +82,6 @@ impl Flow {
         }
     }
 
-    #[inline(never)]
     fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
         self.band.clear();
         self.band.extend_from_slice(&cut.separator);
@@ -104,13 +106,20 @@ impl Flow {
         self.is_sink.clear();
         self.is_source.resize(n, false);
         self.is_sink.resize(n, false);
-        for i in begin..n {
+        self.offsets.clear();
+        self.neighbours.clear();
+        self.offsets.push(0);
+        for i in 0..n {
             for &u in graph.of(self.band[i]) {
-                if self.slots[u as usize] == NONE {
+                let slot = self.slots[u as usize];
+                if slot == NONE {
                     self.is_source[i] |= labels[u as usize] == base + LEFT;
                     self.is_sink[i] |= labels[u as usize] == base + RIGHT;
+                } else {
+                    self.neighbours.push(slot);
                 }
             }
+            self.offsets.push(self.neighbours.len() as u32);
         }
         for list in [&mut self.previous, &mut self.next] {
             list.clear();
@@ -118,13 +127,12 @@ impl Flow {
         }
     }
 
-    /// Blocking flows on shortest paths until there is none ([Dinic70]).
-    #[inline(never)]
-    fn saturate(&mut self, graph: &Graph) {
-        while self.measure(graph) {
+    /// Blocking flows on shortest paths until there is none (\[Dinic70\]).
+    fn saturate(&mut self) {
+        while self.measure() {
             for i in 0..self.band.len() {
                 if self.is_source[i] && self.previous[i] != SOURCE {
-                    self.search(graph, i as u32);
+                    self.search(i as u32);
                 }
             }
         }
@@ -135,26 +143,18 @@ impl Flow {
         }
     }
 
-    /// What follows an entrance or exit, from the given place of its list on; `NONE` at the end.
-    fn follow(&self, graph: &Graph, state: u32, place: &mut u32) -> u32 {
-        let i = (state / 2) as usize;
-        if state % 2 == 0 {
-            // Through an unused vertex, or back along the path that uses it.
-            *place += 1;
-            let from = if self.previous[i] == NONE { i as u32 } else { self.previous[i] };
-            return if *place > 1 || from == SOURCE { NONE } else { 2 * from + 1 };
+    /// The one exit that follows an entrance, if any: through an unused vertex, or back along the path that uses it.
+    fn exit(&self, i: usize) -> u32 {
+        match self.previous[i] {
+            NONE => 2 * i as u32 + 1,
+            SOURCE => NONE,
+            from => 2 * from + 1,
         }
-        // To any neighbour, or, where a path leaves the vertex, to its entrance.
-        let neighbours = graph.of(self.band[i]);
-        while (*place as usize) < neighbours.len() {
-            let slot = self.slots[neighbours[*place as usize] as usize];
-            *place += 1;
-            if slot != NONE && slot != self.next[i] {
-                return 2 * slot;
-            }
-        }
-        *place += 1;
-        if *place as usize > neighbours.len() + 1 || self.previous[i] == NONE { NONE } else { 2 * i as u32 }
+    }
+
+    /// The entrances that follow an exit: of any neighbour, or, where a path leaves the vertex, its own.
+    fn around(&self, i: usize) -> core::ops::Range<usize> {
+        self.offsets[i] as usize..self.offsets[i + 1] as usize
     }
 
     /// Whether a path can end here.
@@ -164,7 +164,7 @@ impl Flow {
     }
 
     /// Counts the steps from the sources to everything they reach, up to the nearest sink; whether there is one.
-    fn measure(&mut self, graph: &Graph) -> bool {
+    fn measure(&mut self) -> bool {
         self.steps.clear();
         self.steps.resize(2 * self.band.len(), NONE);
         self.queue.clear();
@@ -186,23 +186,33 @@ impl Flow {
             if self.ends(state) {
                 last = steps;
             }
-            let mut place = 0;
-            loop {
-                let next = self.follow(graph, state, &mut place);
-                if next == NONE {
-                    break;
+            let i = (state / 2) as usize;
+            if state & 1 == 0 {
+                let exit = self.exit(i);
+                self.reach(exit, steps + 1);
+            } else {
+                for k in self.around(i) {
+                    if self.neighbours[k] != self.next[i] {
+                        self.reach(2 * self.neighbours[k], steps + 1);
+                    }
                 }
-                if self.steps[next as usize] == NONE {
-                    self.steps[next as usize] = steps + 1;
-                    self.queue.push(next);
+                if self.previous[i] != NONE {
+                    self.reach(2 * i as u32, steps + 1);
                 }
             }
         }
         last != NONE
     }
 
+    fn reach(&mut self, state: u32, steps: u32) {
+        if state != NONE && self.steps[state as usize] == NONE {
+            self.steps[state as usize] = steps;
+            self.queue.push(state);
+        }
+    }
+
     /// Looks for one more shortest path from a vertex, depth first, and takes it.
-    fn search(&mut self, graph: &Graph, source: u32) {
+    fn search(&mut self, source: u32) {
         self.stack.clear();
         self.stack.push((2 * source, 0));
         while let Some(&(state, mut place)) = self.stack.last() {
@@ -211,14 +221,28 @@ impl Flow {
                 break;
             }
             let wanted = self.steps[state as usize] + 1;
-            let next = loop {
-                let next = self.follow(graph, state, &mut place);
-                if next == NONE || self.steps[next as usize] == wanted {
-                    break next;
+            let i = (state / 2) as usize;
+            let mut next = NONE;
+            if state & 1 == 0 {
+                let exit = self.exit(i);
+                if exit != NONE && self.steps[exit as usize] == wanted {
+                    next = exit;
                 }
-            };
+            } else {
+                let around = &self.neighbours[self.around(i)];
+                while next == NONE && (place as usize) < around.len() {
+                    let slot = around[place as usize];
+                    place += 1;
+                    if slot != self.next[i] && self.steps[2 * slot as usize] == wanted {
+                        next = 2 * slot;
+                    }
+                }
+                if next == NONE && self.previous[i] != NONE && self.steps[2 * i] == wanted {
+                    next = 2 * i as u32;
+                }
+            }
             if let Some(top) = self.stack.last_mut() {
-                top.1 = place;
+                top.1 = place.max(1);
             }
             if next == NONE {
                 // Nobody needs to come here again.

@@ -4,6 +4,9 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::NONE;
 
+/// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
+const MANY: usize = 64;
+
 /// An undirected graph without loops, every edge stored at both ends.
 pub(super) struct Graph {
     pub(super) offsets: Vec<u32>,
@@ -16,7 +19,6 @@ pub(super) struct Graph {
 
 impl Graph {
     /// The graph of a square symmetric pattern, and the unknowns of very high degree, which it leaves without edges.
-    #[inline(never)]
     pub(super) fn new(pattern: &SparsityPattern) -> (Self, Vec<u32>) {
         let n = pattern.major_dim();
         // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
@@ -60,7 +62,6 @@ impl Graph {
     }
 
     /// The graph whose vertices are `count` clusters of this one's.
-    #[inline(never)]
     pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
         let members = Groups::new(cluster_of, count);
         let mut offsets = Vec::with_capacity(count + 1);
@@ -96,7 +97,6 @@ impl Graph {
     }
 
     /// The graph of some of the vertices, in the given order with the given weights. `place` is scratch for every vertex, all `NONE`.
-    #[inline(never)]
     pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Self {
         for (new, &old) in members.iter().enumerate() {
             place[old as usize] = new as u32;
@@ -125,7 +125,6 @@ impl Graph {
 
     /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns
     /// the cluster of every vertex and the number of clusters.
-    #[inline(never)]
     pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
         let n = self.len();
         let mut cluster_of = vec![NONE; n];
@@ -146,7 +145,7 @@ impl Graph {
                 if !whole && free.len() < wanted / 2 && self.join(v, 2 * most as u32, &mut cluster_of, &mut sizes) {
                     continue;
                 }
-                if free.len() > most - 1 {
+                if free.len() > most - 1 && self.of(v).len() <= MANY {
                     for &u in self.of(v) {
                         mark[u as usize] = v;
                     }
@@ -156,8 +155,8 @@ impl Graph {
                         *entry |= (strangers as u64) << 32;
                     }
                     free.sort_unstable();
-                    free.truncate(most - 1);
                 }
+                free.truncate(most - 1);
                 let cluster = sizes.len() as u32;
                 cluster_of[v as usize] = cluster;
                 for &u in &free {
@@ -176,10 +175,11 @@ impl Graph {
         let mut around = [(NONE, 0_u32); 8];
         for &u in self.of(v) {
             let cluster = cluster_of[u as usize];
-            if cluster != NONE && sizes[cluster as usize] < most {
-                if let Some(entry) = around.iter_mut().find(|entry| entry.0 == cluster || entry.0 == NONE) {
-                    *entry = (cluster, entry.1 + 1);
-                }
+            if cluster != NONE
+                && sizes[cluster as usize] < most
+                && let Some(entry) = around.iter_mut().find(|entry| entry.0 == cluster || entry.0 == NONE)
+            {
+                *entry = (cluster, entry.1 + 1);
             }
         }
         let mut best = around[0];
@@ -195,21 +195,17 @@ impl Graph {
         best.0 != NONE
     }
 
-    /// Pairs of vertices joined by their heaviest edges, none heavier than `most`, as clusters.
-    #[inline(never)]
+    /// Pairs of vertices joined by their heaviest edges (\[Karypis98\]), none heavier than `most`, as clusters. Vertices choose in
+    /// steps of `stride`.
     pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
         let n = self.len();
         let mut cluster_of = vec![NONE; n];
         let mut count = 0;
-        let mut at = 0;
-        let stride = if stride % n == 0 { 1 } else { stride };
-        for step in 0..n as u32 {
-            let v = if stride == 1 {
-                step
-            } else {
-                at = (at + stride) % n;
-                at as u32
-            };
+        // A prime; where it divides the size, it does not come by every vertex.
+        let stride = if n.is_multiple_of(stride) { 1 } else { stride };
+        let mut v = 0;
+        for _ in 0..n {
+            v = ((v as usize + stride) % n) as u32;
             if cluster_of[v as usize] != NONE {
                 continue;
             }
@@ -226,13 +222,6 @@ impl Graph {
             cluster_of[best as usize] = count;
             count += 1;
         }
-        // Where the stride divides the size, some are left.
-        for v in 0..n {
-            if cluster_of[v] == NONE {
-                cluster_of[v] = count;
-                count += 1;
-            }
-        }
         (cluster_of, count as usize)
     }
 }
@@ -245,7 +234,6 @@ pub(super) struct Groups {
 
 impl Groups {
     /// A counting sort that keeps the order within a group.
-    #[inline(never)]
     pub(super) fn new(group_of: &[u32], count: usize) -> Self {
         let mut offsets = vec![0_u32; count + 1];
         for &group in group_of {

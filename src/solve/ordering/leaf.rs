@@ -8,23 +8,15 @@ pub(super) struct LeafOrder {
     /// The bit of a vertex.
     bits: Vec<u32>,
     rows: Vec<u64>,
-    degrees: Vec<u32>,
+    scores: Vec<u32>,
     around: Vec<u32>,
-    mode: u32,
 }
 
 impl LeafOrder {
     pub(super) fn new(n: usize) -> Self {
-        Self {
-            bits: vec![NONE; n],
-            rows: Vec::new(),
-            degrees: Vec::new(),
-            around: Vec::new(),
-            mode: super::tune("MODE", 5.) as u32,
-        }
+        Self { bits: vec![NONE; n], rows: Vec::new(), scores: Vec::new(), around: Vec::new() }
     }
 
-    #[inline(never)]
     pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
         let n = part.len();
         if n < 2 {
@@ -45,21 +37,14 @@ impl LeafOrder {
         let words = (n + self.around.len()).div_ceil(64);
         self.rows.clear();
         self.rows.resize(n * words, 0);
-        self.degrees.clear();
+        self.scores.clear();
         for (i, &v) in part.iter().enumerate() {
             let row = &mut self.rows[i * words..(i + 1) * words];
             for &u in graph.of(v) {
                 let bit = self.bits[u as usize];
                 row[bit as usize / 64] |= 1 << (bit % 64);
             }
-            let d = graph.of(v).len() as u32;
-            self.degrees.push(match self.mode {
-                0 => d,
-                2 | 3 => d << 10,
-                4 => (d - 1) << 10,
-                5 | 6 => 2 * d * (d - 1),
-                _ => d * (d - 1),
-            });
+            self.scores.push(score(graph.of(v).len() as u32, 0));
         }
         for v in part.iter().chain(&self.around) {
             self.bits[*v as usize] = NONE;
@@ -74,7 +59,7 @@ impl LeafOrder {
 
     fn next(&self) -> usize {
         let (mut best, mut least) = (0, NONE);
-        for (i, &degree) in self.degrees.iter().enumerate() {
+        for (i, &degree) in self.scores.iter().enumerate() {
             if degree < least {
                 (best, least) = (i, degree);
             }
@@ -83,10 +68,9 @@ impl LeafOrder {
     }
 
     fn eliminate(&mut self, pivot: usize, n: usize, words: usize) {
-        self.degrees[pivot] = NONE;
+        self.scores[pivot] = NONE;
         let clique = self.rows[pivot * words..(pivot + 1) * words].to_vec();
         let size: u32 = clique.iter().map(|a| a.count_ones()).sum();
-        let mode = self.mode;
         for word in 0..n.div_ceil(64) {
             let mut left = clique[word];
             while left != 0 {
@@ -104,18 +88,14 @@ impl LeafOrder {
                 // Neither the unknown itself nor the pivot.
                 row[i / 64] &= !(1 << (i % 64));
                 row[pivot / 64] &= !(1 << (pivot % 64));
-                let (d, c) = (degree as i64 - 2, size as i64 - 1);
-                self.degrees[i] = match mode {
-                    0 => d as u32,
-                    1 => (d * (d - 1) - c * (c - 1)).max(0) as u32,
-                    2 => (d * 1024 - c) as u32,
-                    3 => (d * 1024 + c) as u32,
-                    4 => (((d * (d - 1) - c * (c - 1)).max(0) << 10) / d.max(1)) as u32,
-                    5 => (2 * d * (d - 1) - c * (c - 1)).max(0) as u32,
-                    6 => (2 * d * (d - 1) - c * (c - 1)).max(0) as u32,
-                    _ => d as u32,
-                };
+                self.scores[i] = score(degree.saturating_sub(2), size.saturating_sub(1));
             }
         }
     }
+}
+
+/// Twice the pairs of neighbours less those that the last pivot has linked: near to the fill (\[Rothberg98\]), but with some
+/// weight on the degree, which is better here than either.
+fn score(degree: u32, linked: u32) -> u32 {
+    (2 * degree * degree.saturating_sub(1)).saturating_sub(linked * linked.saturating_sub(1))
 }

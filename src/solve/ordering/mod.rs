@@ -63,12 +63,3 @@ impl Permutation {
         &self.old_to_new
     }
 }
-
-/// TEMP
-pub fn tune(name: &str, default: f64) -> f64 {
-    #[cfg(not(target_arch = "wasm32"))]
-    if let Ok(v) = std::env::var(name) {
-        return v.parse().unwrap_or(default);
-    }
-    default
-}

@@ -3,114 +3,100 @@
 use super::graph::Graph;
 use super::queue::BucketQueue;
 
-/// Labels within a part: label − base.
+/// What a label says beyond the base of its part.
 pub(super) const LEFT: u32 = 0;
 pub(super) const RIGHT: u32 = 1;
 pub(super) const SEPARATOR: u32 = 2;
-/// Step between the bases of two parts.
-pub(super) const LABELS: u32 = 4;
+/// From the base of a part to that of the next.
+pub(super) const LABELS: u32 = 3;
+
+/// Beyond this share of a part, the difference of its sides counts like edges or unknowns that are cut.
+pub(super) const IMBALANCE: f64 = 0.3;
+
+/// What is cut, with a malus for the imbalance. With sides (1 ± d)/2 the work of order n^1.5 below a cut grows by 3/8 d², and
+/// it is about twice the work of the separator, which grows like its cube: together as much as a cut longer by 0.3 d².
+pub(super) fn cost(cut: f64, all: f64, imbalance: f64) -> f64 {
+    let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
+    cut * (1.0 + 0.3 * imbalance * imbalance) + all * excess
+}
 
 /// A part cut in two by a vertex separator.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(super) struct Cut {
-    /// Weights of left, right, separator.
-    pub(super) weights: [i64; 3],
-    /// The vertices of the separator.
+    /// How many unknowns are left, right, and in the separator.
+    pub(super) sizes: [u32; 3],
     pub(super) separator: Vec<u32>,
 }
 
-/// Beyond this share of a part, the difference of the sides counts as much as the separator itself.
-pub(super) const IMBALANCE: f64 = 0.3;
-
 impl Cut {
-    /// The separator's weight, with a malus for the imbalance of the sides.
     pub(super) fn cost(&self) -> f64 {
-        let [left, right, separator] = self.weights.map(|weight| weight as f64);
-        let total = left + right + separator;
-        let imbalance = (left - right).abs() / total;
-        let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };
-        separator * (1.0 + 0.3 * imbalance * imbalance) + total * excess
+        let [left, right, separator] = self.sizes.map(f64::from);
+        let all = left + right + separator;
+        cost(separator, all, (left - right).abs() / all)
     }
 }
 
-/// Buckets of a queue; gains are counted from the middle.
-const BUCKETS: i64 = 512;
+/// More unknowns than these that a move drags along make no difference.
+const KEYS: usize = 256;
 
-/// Vertex Fiduccia–Mattheyses ([Fiduccia82], [Ashcraft98]).
+/// The search of \[Fiduccia82\] for vertex separators (\[Hendrickson98\]): an unknown of the separator moves to a side, and its
+/// neighbours on the other side join the separator. The best cut on the way is kept, so that a pass may climb out of a hollow.
 pub(super) struct Refiner {
-    /// Separator vertices by the gain of moving them left, and right.
+    /// The unknowns of the separator, by how many others join it where they move left, or right.
     queues: [BucketQueue; 2],
-    gains: [Vec<i32>; 2],
-    /// When a vertex was moved last.
+    joining: [Vec<u32>; 2],
+    /// The pass in which an unknown was last moved: once in each.
     moved: Vec<u32>,
     pass: u32,
-    /// Vertex and label before, for every change.
+    /// Every change: the label before above, the unknown below.
     log: Vec<u64>,
 }
 
 impl Refiner {
     pub(super) fn new(n: usize) -> Self {
         Self {
-            queues: [BucketQueue::new(n, BUCKETS as usize), BucketQueue::new(n, BUCKETS as usize)],
-            gains: [vec![0; n], vec![0; n]],
+            queues: [BucketQueue::new(n, KEYS), BucketQueue::new(n, KEYS)],
+            joining: [vec![0; n], vec![0; n]],
             moved: vec![0; n],
             pass: 0,
             log: Vec::new(),
         }
     }
 
-    /// Improves a cut until nothing changes or `passes` are over.
-    #[inline(never)]
-    pub(super) fn refine(
-        &mut self,
-        graph: &Graph,
-        labels: &mut [u32],
-        base: u32,
-        cut: &mut Cut,
-        passes: usize,
-        unit: i64,
-    ) {
+    /// Improves a cut until that fails or `passes` are over.
+    pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, passes: usize) {
         for _ in 0..passes {
             let before = cut.cost();
-            self.run(graph, labels, base, cut, unit);
+            self.run(graph, labels, base, cut);
             if cut.cost() >= before {
                 break;
             }
         }
     }
 
-    #[inline(never)]
-    fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, unit: i64) {
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut) {
         self.pass += 1;
         self.log.clear();
         let mut separator = core::mem::take(&mut cut.separator);
+        // In a clique every move drags all the others along; the moves of a mesh stay far below.
+        let mut work = 0;
         for &v in &separator {
-            self.enter(graph, labels, base, v, unit);
+            self.enter(graph, labels, base, v);
+            work += 16 * graph.of(v).len();
         }
-        let mut best = cut.cost();
-        let mut best_length = 0;
-        let mut best_weights = cut.weights;
-        let mut stall = 0;
-        let patience = ((separator.len() as f64 * super::tune("PS", 0.5)) as usize)
-            .clamp(super::tune("PMIN", 30.) as usize, super::tune("PMAX", 200.) as usize);
-        while stall < patience {
+        let (mut best, mut best_sizes, mut best_length) = (cut.cost(), cut.sizes, 0);
+        // Moves without a better cut.
+        let (mut stall, patience) = (0, (separator.len() / 2).clamp(30, 200));
+        while stall < patience && work > 0 {
             let Some((v, side)) = self.choose(cut) else { break };
-            self.shift(graph, labels, base, cut, v, side, unit);
+            work = work.saturating_sub(self.shift(graph, labels, base, cut, v, side));
             let cost = cut.cost();
+            stall += 1;
             if cost < best {
-                (best, best_length, best_weights, stall) = (cost, self.log.len(), cut.weights, 0);
-            } else if best_weights[0].min(best_weights[1]) > 0 {
-                stall += 1;
+                (best, best_sizes, best_length, stall) = (cost, cut.sizes, self.log.len(), 0);
             }
         }
-        for &entry in &self.log {
-            let v = entry as u32;
-            if self.moved[v as usize] != self.pass || !self.queues[0].holds(v) {
-                separator.push(v);
-            } else {
-                separator.push(v);
-            }
-        }
+        separator.extend(self.log.iter().map(|&entry| entry as u32));
         for &v in &separator {
             for queue in &mut self.queues {
                 if queue.holds(v) {
@@ -121,8 +107,8 @@ impl Refiner {
         for &entry in self.log[best_length..].iter().rev() {
             labels[entry as u32 as usize] = (entry >> 32) as u32;
         }
-        cut.weights = best_weights;
-        // A new stamp, to keep every vertex once.
+        cut.sizes = best_sizes;
+        // Another pass number, to list every unknown once.
         self.pass += 1;
         let (moved, pass) = (&mut self.moved, self.pass);
         separator.retain(|&v| {
@@ -131,96 +117,82 @@ impl Refiner {
         cut.separator = separator;
     }
 
-    /// The best move that leaves the sides balanced.
+    /// The best move that does not unbalance the sides.
     fn choose(&mut self, cut: &Cut) -> Option<(u32, usize)> {
-        let [left, right, separator] = cut.weights;
-        let most = ((left + right + separator) as f64 * 0.5 * (1.0 + IMBALANCE)) as i64;
-        let mut best: Option<(u32, usize)> = None;
+        let all: u32 = cut.sizes.iter().sum();
+        let most = (f64::from(all) * 0.5 * (1.0 + IMBALANCE)) as u32;
+        let mut best = None;
+        let mut fewest = u32::MAX;
         for side in 0..2 {
-            let (here, there) = (cut.weights[side], cut.weights[1 - side]);
+            let (here, there) = (cut.sizes[side], cut.sizes[1 - side]);
             if here > there && here >= most {
                 continue;
             }
             if let Some(v) = self.queues[side].first() {
-                let better = match best {
-                    None => true,
-                    Some((u, other)) => {
-                        let (a, b) = (self.gains[side][v as usize], self.gains[other][u as usize]);
-                        a > b || a == b && here < there
-                    }
-                };
-                if better {
+                let joining = self.joining[side][v as usize];
+                if best.is_none() || joining < fewest || joining == fewest && here < there {
                     best = Some((v, side));
+                    fewest = joining;
                 }
             }
         }
         best
     }
 
-    fn key(gain: i32, unit: i64) -> u32 {
-        (BUCKETS / 2 - i64::from(gain) / unit).clamp(0, BUCKETS - 1) as u32
-    }
-
-    /// Puts a separator vertex into the queues.
-    fn enter(&mut self, graph: &Graph, labels: &[u32], base: u32, v: u32, unit: i64) {
-        let mut sums = [0_i32; 2];
+    /// Puts an unknown of the separator into the queues.
+    fn enter(&mut self, graph: &Graph, labels: &[u32], base: u32, v: u32) {
+        let mut counts = [0; 2];
         for &u in graph.of(v) {
             let side = labels[u as usize].wrapping_sub(base);
-            if side < 2 {
-                sums[side as usize] += graph.weights[u as usize] as i32;
+            if side < SEPARATOR {
+                counts[side as usize] += 1;
             }
         }
-        let own = graph.weights[v as usize] as i32;
         for side in 0..2 {
-            let gain = own - sums[1 - side];
-            self.gains[side][v as usize] = gain;
-            self.queues[side].insert(v, Self::key(gain, unit));
+            self.joining[side][v as usize] = counts[1 - side];
+            self.queues[side].insert(v, counts[1 - side]);
         }
     }
 
-    fn change(&mut self, v: u32, side: usize, difference: i32, unit: i64) {
-        let gain = self.gains[side][v as usize] + difference;
-        self.gains[side][v as usize] = gain;
-        let queue = &mut self.queues[side];
-        let key = Self::key(gain, unit);
-        if queue.key(v) != key {
-            queue.remove(v);
-            queue.insert(v, key);
-        }
+    fn change(&mut self, v: u32, side: usize, joining: u32) {
+        self.joining[side][v as usize] = joining;
+        self.queues[side].remove(v);
+        self.queues[side].insert(v, joining);
     }
 
-    /// Moves a separator vertex to a side; its neighbours on the other side join the separator.
-    fn shift(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, v: u32, side: usize, unit: i64) {
+    /// Moves an unknown from the separator to a side. Returns how many neighbours that took.
+    fn shift(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, v: u32, side: usize) -> usize {
         let other = 1 - side;
         self.queues[0].remove(v);
         self.queues[1].remove(v);
         self.moved[v as usize] = self.pass;
         self.log.push(u64::from(base + SEPARATOR) << 32 | u64::from(v));
         labels[v as usize] = base + side as u32;
-        let own = graph.weights[v as usize];
-        cut.weights[side] += i64::from(own);
-        cut.weights[2] -= i64::from(own);
+        cut.sizes[side] += 1;
+        cut.sizes[2] -= 1;
+        let mut work = graph.of(v).len();
         for &u in graph.of(v) {
             let label = labels[u as usize];
             if label == base + SEPARATOR {
                 if self.queues[0].holds(u) {
-                    self.change(u, other, -(own as i32), unit);
+                    self.change(u, other, self.joining[other][u as usize].wrapping_add(1));
                 }
             } else if label == base + other as u32 {
-                let weight = graph.weights[u as usize];
                 self.log.push(u64::from(label) << 32 | u64::from(u));
                 labels[u as usize] = base + SEPARATOR;
-                cut.weights[other] -= i64::from(weight);
-                cut.weights[2] += i64::from(weight);
+                cut.sizes[other] -= 1;
+                cut.sizes[2] += 1;
+                work += graph.of(u).len();
                 for &t in graph.of(u) {
-                    if labels[t as usize] == base + SEPARATOR && self.queues[0].holds(t) {
-                        self.change(t, side, weight as i32, unit);
+                    if self.queues[0].holds(t) {
+                        self.change(t, side, self.joining[side][t as usize].wrapping_sub(1));
                     }
                 }
                 if self.moved[u as usize] != self.pass {
-                    self.enter(graph, labels, base, u, unit);
+                    self.enter(graph, labels, base, u);
                 }
             }
         }
+        work
     }
 }
