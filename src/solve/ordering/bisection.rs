@@ -17,6 +17,7 @@ const STRIDE: usize = 104_729;
 const LARGE: usize = 1000;
 
 /// Cuts a connected graph in two: the side of every vertex.
+#[inline(never)]
 pub(super) fn bisect(graph: &Graph, positions: &[[f64; 3]], refiner: &mut EdgeRefiner) -> Vec<u32> {
     let mut best = by_levels(graph, refiner);
     if graph.len() >= LARGE {

@@ -2,7 +2,6 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::NONE;
 use super::bisection::bisect;
 use super::edge_cut::EdgeRefiner;
 use super::flow::Flow;
@@ -10,6 +9,7 @@ use super::graph::{Graph, Groups};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
+use super::{NONE, filled};
 
 /// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
 const LEAF: usize = 120;
@@ -42,13 +42,13 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
     let (cluster_of, count) = graph.cluster(cluster_size);
     let clusters = graph.contract(&cluster_of, count);
     let mut dissection = Dissection {
-        labels: vec![NONE; n],
+        labels: filled(n),
         refiner: Refiner::new(n),
         flow: Flow::new(n),
         cluster_refiner: EdgeRefiner::new(count),
         leaf: LeafOrder::new(n),
-        place: vec![NONE; count],
-        local: vec![NONE; count],
+        place: filled(count),
+        local: filled(count),
         positions: coordinates.and_then(|coordinates| representatives(coordinates, &cluster_of, count)),
         base: 0,
         stack: Vec::new(),
@@ -100,6 +100,7 @@ struct Dissection {
 
 impl Dissection {
     /// Orders a small part; cuts a larger one in two and leaves these for later.
+    #[inline(never)]
     fn split(&mut self, order: &mut [u32], part: &Part) {
         let members = &mut order[part.begin..part.end];
         if members.len() <= LEAF {
@@ -143,6 +144,7 @@ impl Dissection {
 
     /// Labels the unknowns of a part by the sides of their clusters; those next to the other side, on both sides, make a first
     /// separator, twice as thick as needed.
+    #[inline(never)]
     fn separate(&mut self, members: &[u32], clusters: &Graph, sides: &[u32]) -> Cut {
         let is_at_cut: Vec<bool> = (0..sides.len())
             .map(|c| clusters.of(c as u32).iter().any(|&other| sides[other as usize] != sides[c]))
@@ -202,8 +204,9 @@ impl Dissection {
     }
 
     /// Orders a part that has no separator.
+    #[inline(never)]
     fn order_whole(&mut self, members: &mut [u32]) {
-        let mut place = vec![NONE; self.graph.len()];
+        let mut place = filled(self.graph.len());
         let part = self.graph.part(members, vec![1; members.len()], &mut place);
         let old = members.to_vec();
         for (place, &new) in members.iter_mut().zip(&order_graph(&part)) {
@@ -213,6 +216,7 @@ impl Dissection {
 }
 
 /// The position of one unknown of every cluster, or nothing where coordinates are missing or not finite.
+#[inline(never)]
 fn representatives(coordinates: &[f64], cluster_of: &[u32], count: usize) -> Option<Vec<[f64; 3]>> {
     if coordinates.len() != 3 * cluster_of.len() || !coordinates.iter().all(|x| x.is_finite()) {
         return None;
@@ -225,8 +229,9 @@ fn representatives(coordinates: &[f64], cluster_of: &[u32], count: usize) -> Opt
 }
 
 /// The component of every vertex, and the number of components.
+#[inline(never)]
 fn components(graph: &Graph) -> (Vec<u32>, usize) {
-    let mut component_of = vec![NONE; graph.len()];
+    let mut component_of = filled(graph.len());
     let mut count = 0;
     let mut stack = Vec::new();
     for seed in 0..graph.len() as u32 {

@@ -66,6 +66,7 @@ impl EdgeRefiner {
     }
 
     /// Improves a cut until that fails or `passes` are over.
+    #[inline(never)]
     pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
         // Gains in buckets of about a sixteenth of the edges that a vertex has on average; a power of two, as divisions are slow.
         let unit = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
@@ -173,6 +174,7 @@ impl EdgeRefiner {
         (BUCKETS / 2 - (gain >> unit)).clamp(0, BUCKETS - 1) as u32
     }
 
+    #[inline(never)]
     fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: u32) {
         let mut gain = 0;
         for edge in graph.range(v) {

@@ -1,8 +1,8 @@
 //! The smallest vertex separator near a given one.
 
-use super::NONE;
 use super::graph::Graph;
 use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
+use super::{NONE, filled};
 
 /// The ends of paths.
 const SOURCE: u32 = u32::MAX - 1;
@@ -32,7 +32,7 @@ pub(super) struct Flow {
 impl Flow {
     pub(super) fn new(n: usize) -> Self {
         Self {
-            slots: vec![NONE; n],
+            slots: filled(n),
             band: Vec::new(),
             offsets: Vec::new(),
             neighbours: Vec::new(),
@@ -47,6 +47,7 @@ impl Flow {
     }
 
     /// Replaces the separator by the smallest one within `depth` steps, where that is better.
+    #[inline(never)]
     pub(super) fn improve(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, depth: usize) {
         self.collect(graph, labels, base, cut, depth);
         self.saturate();

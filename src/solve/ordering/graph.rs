@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::NONE;
+use super::{NONE, filled};
 
 /// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
 const MANY: usize = 64;
@@ -23,8 +23,16 @@ impl Graph {
         let n = pattern.major_dim();
         // A row that touches a good part of the matrix only slows the others down (threshold of [Amestoy04]).
         let most = (10.0 * (n as f64).sqrt()).max(16.0) as usize;
-        let mut dense: Vec<u32> = (0..n as u32).filter(|&v| pattern.lane(v as usize).len() > most).collect();
-        dense.sort_by_key(|&v| pattern.lane(v as usize).len());
+        // By degree above, the unknown below.
+        let mut keys: Vec<u64> = Vec::new();
+        for v in 0..n {
+            let degree = pattern.lane(v).len();
+            if degree > most {
+                keys.push((degree as u64) << 32 | v as u64);
+            }
+        }
+        keys.sort_unstable();
+        let dense: Vec<u32> = keys.iter().map(|&key| key as u32).collect();
         let mut is_dense = vec![false; n];
         for &v in &dense {
             is_dense[v as usize] = true;
@@ -125,11 +133,12 @@ impl Graph {
 
     /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns
     /// the cluster of every vertex and the number of clusters.
+    #[inline(never)]
     pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
         let n = self.len();
-        let mut cluster_of = vec![NONE; n];
+        let mut cluster_of = filled(n);
         let mut sizes: Vec<u32> = Vec::new();
-        let mut mark = vec![NONE; n];
+        let mut mark = filled(n);
         let mut free: Vec<u64> = Vec::new();
         for whole in [true, false] {
             for v in 0..n as u32 {
@@ -199,7 +208,7 @@ impl Graph {
     /// steps of `stride`.
     pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
         let n = self.len();
-        let mut cluster_of = vec![NONE; n];
+        let mut cluster_of = filled(n);
         let mut count = 0;
         // A prime; where it divides the size, it does not come by every vertex.
         let stride = if n.is_multiple_of(stride) { 1 } else { stride };

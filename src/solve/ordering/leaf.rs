@@ -1,7 +1,7 @@
 //! Minimum degree on bit sets, for small parts.
 
-use super::NONE;
 use super::graph::Graph;
+use super::{NONE, filled};
 
 /// Orders the unknowns of small parts by exact minimum degree; unknowns around the part, eliminated later, count.
 pub(super) struct LeafOrder {
@@ -14,9 +14,10 @@ pub(super) struct LeafOrder {
 
 impl LeafOrder {
     pub(super) fn new(n: usize) -> Self {
-        Self { bits: vec![NONE; n], rows: Vec::new(), scores: Vec::new(), around: Vec::new() }
+        Self { bits: filled(n), rows: Vec::new(), scores: Vec::new(), around: Vec::new() }
     }
 
+    #[inline(never)]
     pub(super) fn order(&mut self, graph: &Graph, part: &mut [u32]) {
         let n = part.len();
         if n < 2 {

@@ -18,6 +18,12 @@ pub use minimum_degree::minimum_degree;
 /// No unknown.
 const NONE: u32 = u32::MAX;
 
+/// `NONE` everywhere. Like other functions of this module not inlined: the copies would only grow the wasm module.
+#[inline(never)]
+fn filled(length: usize) -> Vec<u32> {
+    vec![NONE; length]
+}
+
 /// A renumbering of unknowns.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Permutation {

@@ -1,6 +1,6 @@
 //! A priority queue for small keys.
 
-use super::NONE;
+use super::{NONE, filled};
 
 /// Items in buckets by key: doubly linked lists, so that every operation but finding the next minimum is O(1).
 pub(super) struct BucketQueue {
@@ -14,14 +14,9 @@ pub(super) struct BucketQueue {
 
 impl BucketQueue {
     /// For items below `items` with keys below `keys`; larger ones share the last bucket.
+    #[inline(never)]
     pub(super) fn new(items: usize, keys: usize) -> Self {
-        Self {
-            heads: vec![NONE; keys],
-            next: vec![NONE; items],
-            previous: vec![NONE; items],
-            keys: vec![NONE; items],
-            smallest: 0,
-        }
+        Self { heads: filled(keys), next: filled(items), previous: filled(items), keys: filled(items), smallest: 0 }
     }
 
     pub(super) fn key(&self, item: u32) -> u32 {
@@ -33,6 +28,7 @@ impl BucketQueue {
     }
 
     /// Adds an item that is not in the queue.
+    #[inline(never)]
     pub(super) fn insert(&mut self, item: u32, key: u32) {
         let key = (key as usize).min(self.heads.len() - 1);
         let head = self.heads[key];
@@ -47,6 +43,7 @@ impl BucketQueue {
     }
 
     /// Takes out an item that is in the queue.
+    #[inline(never)]
     pub(super) fn remove(&mut self, item: u32) {
         let (next, previous) = (self.next[item as usize], self.previous[item as usize]);
         if next != NONE {

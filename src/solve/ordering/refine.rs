@@ -64,6 +64,7 @@ impl Refiner {
     }
 
     /// Improves a cut until that fails or `passes` are over.
+    #[inline(never)]
     pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, passes: usize) {
         for _ in 0..passes {
             let before = cut.cost();
@@ -140,6 +141,7 @@ impl Refiner {
     }
 
     /// Puts an unknown of the separator into the queues.
+    #[inline(never)]
     fn enter(&mut self, graph: &Graph, labels: &[u32], base: u32, v: u32) {
         let mut counts = [0; 2];
         for &u in graph.of(v) {
