@@ -81,7 +81,7 @@ fn measure(system: &System, with_csc: bool) {
     let [mut ours, mut single, mut peer, mut csc] = [(); 4].map(|()| Times::default());
     let (mut entries, mut stored, mut sum) = (0.0, 0.0, 0.0);
     for round in 0..ROUNDS {
-        let permutation = ours.time(0, || order(pattern, &system.positions));
+        let permutation = ours.time(0, || order(pattern));
         let analysis = ours.time(1, || Analysis::new(pattern.clone(), &permutation));
         entries = analysis.nonzeros();
         for (times, precision) in [(&mut ours, Precision::Double), (&mut single, Precision::Single)] {

@@ -39,9 +39,7 @@ pub(crate) struct Accuracy {
 impl Accuracy {
     pub(crate) fn new(mesh: TriMesh) -> Self {
         let laplacian = cotan_laplacian(&mesh);
-        let analyze = |matrix: &CscMatrix<f64>| {
-            Analysis::new(matrix.pattern().clone(), &order(matrix.pattern(), mesh.positions()))
-        };
+        let analyze = |matrix: &CscMatrix<f64>| Analysis::new(matrix.pattern().clone(), &order(matrix.pattern()));
         let squared = gram(&laplacian).expect("it fits");
         let analysis = analyze(&squared);
         let single = analyze(&laplacian);

@@ -14,8 +14,8 @@ pub(crate) enum Precision {
 }
 
 /// The old ids in the new order.
-pub(crate) fn order(pattern: &SparsityPattern, positions: &[f64]) -> Vec<u32> {
-    nested_dissection(pattern, Some(positions))
+pub(crate) fn order(pattern: &SparsityPattern) -> Vec<u32> {
+    nested_dissection(pattern)
 }
 
 pub(crate) struct Analysis(CholeskyAnalysis);

@@ -27,7 +27,7 @@ type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 impl ComplexRoute {
     pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
         let pattern = task.problem.laplacian.pattern().clone();
-        let analysis = CholeskyAnalysis::with_coordinates(pattern, task.positions)?;
+        let analysis = CholeskyAnalysis::new(pattern)?;
         Ok(Self { factors: Factors::new(analysis) })
     }
 

@@ -21,7 +21,7 @@ pub(super) struct RealRoute {
 impl RealRoute {
     pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
         let (pattern, gram) = gram(task.problem.laplacian)?.into_pattern_and_values();
-        let analysis = CholeskyAnalysis::with_coordinates(pattern, task.positions)?;
+        let analysis = CholeskyAnalysis::new(pattern)?;
         Ok(Self { gram, factors: Factors::new(analysis) })
     }
 

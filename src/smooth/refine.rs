@@ -7,7 +7,7 @@ const MOST_STEPS: usize = 12;
 /// Relative corrections of this size are rounding.
 const ROUNDING: f64 = 1e-13;
 /// Corrections of this size that shrink no more are rounding too, on a badly conditioned system.
-const ROUGH_ROUNDING: f64 = 1e-11;
+const ROUGH_ROUNDING: f64 = 1e-10;
 
 /// One solved right-hand side.
 #[derive(Debug, Clone, Default)]

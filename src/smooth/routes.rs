@@ -34,8 +34,6 @@ pub(super) struct Task<'a> {
     pub(super) key: Key,
     /// One per channel, on the unknowns.
     pub(super) fields: &'a [Vec<f64>],
-    /// Where the unknowns are.
-    pub(super) positions: &'a [f64],
     pub(super) choice: SolverChoice,
     pub(super) precision: Precision,
 }

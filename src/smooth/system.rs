@@ -18,8 +18,6 @@ const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 pub(super) struct TikhonovSystem {
     /// The vertices that are unknowns, ascending.
     active: Vec<u32>,
-    /// Where they are, for the ordering.
-    positions: Vec<f64>,
     /// L on the unknowns.
     laplacian: CscMatrix<f64>,
     mass: Option<(Metric, MassScale, Mass)>,
@@ -90,9 +88,8 @@ impl TikhonovSystem {
             .collect();
         let laplacian =
             if active.len() == laplacian.ncols() { laplacian.clone() } else { submatrix(laplacian, &active) };
-        let positions = active.iter().flat_map(|&v| mesh.position(v)).collect();
         let weights = (operator == Operator::Fem).then(|| active.iter().map(|&v| areas[v as usize].recip()).collect());
-        Ok(Self { active, positions, laplacian, mass: None, weights, routes: Routes::default() })
+        Ok(Self { active, laplacian, mass: None, weights, routes: Routes::default() })
     }
 
     /// Solves for every channel of normalised values.
@@ -127,7 +124,6 @@ impl TikhonovSystem {
             problem,
             key: (options.epsilon, *metric, *mass_scale),
             fields: &fields,
-            positions: &self.positions,
             choice: smoother.solver,
             precision: smoother.precision,
         };

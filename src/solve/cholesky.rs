@@ -30,21 +30,7 @@ impl CholeskyAnalysis {
     /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
     pub fn new(pattern: SparsityPattern) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
-        let permutation = Permutation::of_valid(nested_dissection(&pattern, None));
-        Ok(Self::analyze(pattern, &permutation))
-    }
-
-    /// As [`CholeskyAnalysis::new`], for unknowns that are points: three coordinates each, which help the ordering.
-    ///
-    /// # Errors
-    /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where there are not three coordinates for each unknown.
-    pub fn with_coordinates(pattern: SparsityPattern, coordinates: &[f64]) -> Result<Self, SolveError> {
-        check_symmetric(&pattern)?;
-        let (expected, actual) = (3 * pattern.major_dim(), coordinates.len());
-        if expected != actual {
-            return Err(SolveError::DimensionMismatch { expected, actual });
-        }
-        let permutation = Permutation::of_valid(nested_dissection(&pattern, Some(coordinates)));
+        let permutation = Permutation::of_valid(nested_dissection(&pattern));
         Ok(Self::analyze(pattern, &permutation))
     }
 

@@ -104,7 +104,7 @@ extern "C" fn build_system(kind: usize, epsilon: f64) -> f64 {
 
 #[unsafe(no_mangle)]
 extern "C" fn ours_order() {
-    session(|session| session.order = order(session.pattern(), &session.system().positions));
+    session(|session| session.order = order(session.pattern()));
 }
 
 /// Returns the entries of the factor.

@@ -13,26 +13,10 @@ const TRIES: usize = 4;
 const PASSES: usize = 3;
 /// Vertices are visited in steps of this prime: neighbours one after the other would grow chains of pairs.
 const STRIDE: usize = 104_729;
-/// Graphs from this size on, which matter most and are few, are also cut across the axes.
-const LARGE: usize = 1000;
 
 /// Cuts a connected graph in two: the side of every vertex.
 #[inline(never)]
-pub(super) fn bisect(graph: &Graph, positions: &[[f64; 3]], refiner: &mut EdgeRefiner) -> Vec<u32> {
-    let mut best = by_levels(graph, refiner);
-    if graph.len() >= LARGE {
-        let mut keys = Vec::with_capacity(positions.len());
-        for axis in 0..if positions.is_empty() { 0 } else { 3 } {
-            let other = across(graph, positions, axis, &mut keys, refiner);
-            if other.1.cost() < best.1.cost() {
-                best = other;
-            }
-        }
-    }
-    best.0
-}
-
-fn by_levels(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
+pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner) -> Vec<u32> {
     let total: u32 = graph.weights.iter().sum();
     // Heavier vertices could not be balanced.
     let most = (total / (COARSEST as u32 / 2)).max(2);
@@ -56,7 +40,7 @@ fn by_levels(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
         sides = levels[i].1.iter().map(|&cluster| sides[cluster as usize]).collect();
         refiner.refine(finer, &mut sides, &mut cut, PASSES);
     }
-    (sides, cut)
+    sides
 }
 
 /// The best of several cuts that grow from different vertices.
@@ -74,42 +58,4 @@ fn grow(graph: &Graph, refiner: &mut EdgeRefiner) -> (Vec<u32>, EdgeCut) {
     }
     refiner.refine(graph, &mut best.0, &mut best.1, PASSES);
     best
-}
-
-/// A cut that halves the weight across an axis.
-fn across(
-    graph: &Graph,
-    positions: &[[f64; 3]],
-    axis: usize,
-    keys: &mut Vec<u64>,
-    refiner: &mut EdgeRefiner,
-) -> (Vec<u32>, EdgeCut) {
-    keys.clear();
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for position in positions {
-        low = low.min(position[axis]);
-        high = high.max(position[axis]);
-    }
-    // Thirty-two bits of the position above, the vertex below.
-    let scale = f64::from(u32::MAX) / (high - low).max(f64::MIN_POSITIVE);
-    keys.extend(
-        positions
-            .iter()
-            .enumerate()
-            .map(|(v, position)| u64::from(((position[axis] - low) * scale) as u32) << 32 | v as u64),
-    );
-    keys.sort_unstable();
-    let half = graph.weights.iter().map(|&weight| u64::from(weight)).sum::<u64>() / 2;
-    let mut sides = vec![RIGHT; graph.len()];
-    let mut sum = 0;
-    for &key in &*keys {
-        if sum >= half {
-            break;
-        }
-        sides[key as u32 as usize] = LEFT;
-        sum += u64::from(graph.weights[key as u32 as usize]);
-    }
-    let mut cut = EdgeCut::of(graph, &sides);
-    refiner.refine(graph, &mut sides, &mut cut, PASSES);
-    (sides, cut)
 }

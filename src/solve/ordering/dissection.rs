@@ -26,10 +26,10 @@ const PASSES: usize = 2;
 /// ids in their new order; the same for the same pattern everywhere.
 ///
 /// Unknowns are gathered into clusters once. A separator begins as a small edge cut between clusters, found by levels, and is
-/// refined among the unknowns themselves. `coordinates`, three per unknown, only add cuts across the axes to choose from; they
-/// are left out where they are not finite or not of that number.
+/// refined among the unknowns themselves. Where the unknowns are does not matter: cuts across the axes of a mesh were hardly
+/// ever smaller than those found from its graph.
 #[must_use]
-pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>) -> Vec<u32> {
+pub fn nested_dissection(pattern: &SparsityPattern) -> Vec<u32> {
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -49,7 +49,6 @@ pub fn nested_dissection(pattern: &SparsityPattern, coordinates: Option<&[f64]>)
         leaf: LeafOrder::new(n),
         place: filled(count),
         local: filled(count),
-        positions: coordinates.and_then(|coordinates| representatives(coordinates, &cluster_of, count)),
         base: 0,
         stack: Vec::new(),
         spare: Vec::new(),
@@ -78,8 +77,6 @@ struct Part {
 struct Dissection {
     graph: Graph,
     cluster_of: Vec<u32>,
-    /// Where clusters are.
-    positions: Option<Vec<[f64; 3]>>,
     /// The side of an unknown: the base of its part and `LEFT`, `RIGHT` or `SEPARATOR`. Unknowns with lower labels are in
     /// other parts or in separators.
     labels: Vec<u32>,
@@ -116,11 +113,7 @@ impl Dissection {
             self.descend(members, part, &groups, count, count);
             return;
         }
-        let positions: Vec<[f64; 3]> = match &self.positions {
-            Some(positions) => part.ids.iter().map(|&id| positions[id as usize]).collect(),
-            None => Vec::new(),
-        };
-        let sides = bisect(&part.clusters, &positions, &mut self.cluster_refiner);
+        let sides = bisect(&part.clusters, &mut self.cluster_refiner);
         self.base += LABELS;
         let mut cut = self.separate(members, &part.clusters, &sides);
         self.refiner.refine(&self.graph, &mut self.labels, self.base, &mut cut, PASSES);
@@ -213,19 +206,6 @@ impl Dissection {
             *place = old[new as usize];
         }
     }
-}
-
-/// The position of one unknown of every cluster, or nothing where coordinates are missing or not finite.
-#[inline(never)]
-fn representatives(coordinates: &[f64], cluster_of: &[u32], count: usize) -> Option<Vec<[f64; 3]>> {
-    if coordinates.len() != 3 * cluster_of.len() || !coordinates.iter().all(|x| x.is_finite()) {
-        return None;
-    }
-    let mut positions = vec![[0.0; 3]; count];
-    for (v, &cluster) in cluster_of.iter().enumerate() {
-        positions[cluster as usize] = [coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]];
-    }
-    Some(positions)
 }
 
 /// The component of every vertex, and the number of components.
