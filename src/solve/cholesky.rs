@@ -6,9 +6,10 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::multifrontal::{Workspace, reserve, storage};
 use super::ordering::{Permutation, nested_dissection};
-use super::scalar::{Scalar, Unit};
+use super::scalar::Scalar;
 use super::symbolic::{FactorSize, Symbolic};
 use super::triangular::{solve_block, solve_one};
+use super::unit::Unit;
 use crate::error::SolveError;
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.

@@ -11,7 +11,8 @@
 //! The first two stay as part of the factor, with the reciprocals of the pivots on the diagonal. Rows that fill the last
 //! tile of a part up are zero.
 
-use super::scalar::{Scalar, Unit};
+use super::scalar::Scalar;
+use super::unit::Unit;
 
 /// Units in the tiles before tile `tile` of a triangle.
 #[inline]

@@ -5,6 +5,7 @@ mod cg;
 mod cholesky;
 mod elimination;
 mod front;
+mod lanes;
 mod matrix;
 mod multifrontal;
 mod multigrid;
@@ -17,6 +18,7 @@ mod supernodes;
 mod symbolic;
 mod tree;
 mod triangular;
+mod unit;
 
 pub use cg::{CgInfo, CgOptions, conjugate_gradient};
 pub use cholesky::{CholeskyAnalysis, CholeskyFactor};
@@ -24,6 +26,7 @@ pub use matrix::{gram, norm, product, quadratic_form, relative_residual, submatr
 pub use multigrid::Multigrid;
 pub use ordering::{Permutation, minimum_degree, nested_dissection};
 pub use preconditioner::{IncompleteCholesky, Jacobi, Preconditioner};
-pub use scalar::{Scalar, Unit};
+pub use scalar::Scalar;
 pub use squared::SquaredSum;
 pub use symbolic::FactorSize;
+pub use unit::Unit;

@@ -4,8 +4,9 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::front::{Front, sizes, triangle};
-use super::scalar::{Scalar, Unit};
+use super::scalar::Scalar;
 use super::symbolic::Symbolic;
+use super::unit::Unit;
 use crate::error::SolveError;
 
 /// Units of the whole factor, and of the stack of updates at its fullest.

@@ -3,8 +3,9 @@
 //! Small loops are functions of their own, never inlined: there are four kinds of factors, and the module is downloaded.
 
 use super::front::triangle;
-use super::scalar::{Scalar, Unit};
+use super::scalar::Scalar;
 use super::symbolic::Symbolic;
+use super::unit::Unit;
 
 /// One front's part of the factor.
 struct Part<'a, U: Unit> {

@@ -1,0 +1,214 @@
+//! The short vectors that factors are stored in.
+#![allow(trivial_numeric_casts, reason = "the macro casts for both precisions")]
+
+use core::fmt::Debug;
+
+use nalgebra::Complex;
+
+use super::lanes::{Doubles, Lanes, Singles, sum_products};
+use super::scalar::Scalar;
+
+/// About the root of the smallest normal number in single precision.
+const TRACE: f32 = 1e-19;
+
+/// A few numbers side by side, as many as two SIMD registers of WebAssembly hold; complex ones as real parts, then
+/// imaginary parts, so that no kernel has to sort them out.
+pub trait Unit: Copy + Debug + Send + Sync + 'static {
+    /// One number.
+    type Element: Scalar<Unit = Self>;
+    /// How many.
+    const LANES: usize;
+    /// All zero.
+    const ZERO: Self;
+
+    /// One of the numbers; `lane` counts around, which spares the check of its bounds.
+    fn lane(&self, lane: usize) -> Self::Element;
+    /// Replaces one of the numbers.
+    fn set_lane(&mut self, lane: usize, value: Self::Element);
+    /// self + other
+    #[must_use]
+    fn plus(&self, other: &Self) -> Self;
+    /// self − a·factor
+    #[must_use]
+    fn minus_scaled(&self, a: &Self, factor: Self::Element) -> Self;
+    /// self + a·b, lane by lane.
+    #[must_use]
+    fn plus_product(&self, a: &Self, b: &Self) -> Self;
+    /// self·factor
+    #[must_use]
+    #[inline(always)]
+    fn times(&self, factor: Self::Element) -> Self {
+        Self::ZERO.minus_scaled(self, Self::Element::ZERO.minus(factor))
+    }
+    /// Zero for numbers whose squares would leave the normal range of single precision, where processors are slow; double
+    /// precision has no such numbers in practice. Matrices in single precision are scaled to entries of at most 1.
+    #[must_use]
+    fn without_traces(self) -> Self;
+    /// The sum of the lanes.
+    fn sum(&self) -> Self::Element;
+    /// `result[j]` −= Σ over k of `a[k]` · lane j of `b[k]`
+    fn update(result: &mut [Self], a: &[Self], b: &[Self]);
+}
+
+/// Real parts, then imaginary parts.
+#[derive(Debug, Clone, Copy)]
+pub struct Planar<Parts> {
+    re: Parts,
+    im: Parts,
+}
+
+macro_rules! units {
+    ($real:ident, $lanes:literal, $registers:ident) => {
+        impl Unit for [$real; $lanes] {
+            type Element = $real;
+            const LANES: usize = $lanes;
+            const ZERO: Self = [0.0; $lanes];
+
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> $real {
+                self[lane % $lanes]
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, value: $real) {
+                self[lane % $lanes] = value;
+            }
+
+            #[inline(always)]
+            fn plus(&self, other: &Self) -> Self {
+                $registers::load(self).plus($registers::load(other)).store()
+            }
+
+            #[inline(always)]
+            fn minus_scaled(&self, a: &Self, factor: $real) -> Self {
+                $registers::load(self).minus_scaled($registers::load(a), factor).store()
+            }
+
+            #[inline(always)]
+            fn plus_product(&self, a: &Self, b: &Self) -> Self {
+                $registers::load(self).plus_product($registers::load(a), $registers::load(b)).store()
+            }
+
+            #[inline(always)]
+            fn without_traces(self) -> Self {
+                if <$real>::SINGLE { $registers::load(&self).without_traces(TRACE as $real).store() } else { self }
+            }
+
+            #[inline(always)]
+            fn sum(&self) -> $real {
+                self.iter().sum()
+            }
+
+            #[inline(never)]
+            fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
+                let (blocks, rest) = result.as_chunks_mut::<4>();
+                let mut lane = 0;
+                for [r0, r1, r2, r3] in blocks {
+                    let sums = [$registers::load(r0), $registers::load(r1), $registers::load(r2), $registers::load(r3)];
+                    let sums = sum_products::<false, _, _>(sums, a.iter().zip(b), |a| a, |b, j| b[(lane + j) % $lanes]);
+                    let [s0, s1, s2, s3] = sums;
+                    (*r0, *r1, *r2, *r3) = (s0.store(), s1.store(), s2.store(), s3.store());
+                    lane += 4;
+                }
+                update_each(rest, a, b, lane);
+            }
+        }
+
+        impl Unit for Planar<[$real; $lanes]> {
+            type Element = Complex<$real>;
+            const LANES: usize = $lanes;
+            const ZERO: Self = Planar { re: [0.0; $lanes], im: [0.0; $lanes] };
+
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> Complex<$real> {
+                Complex::new(self.re[lane % $lanes], self.im[lane % $lanes])
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, value: Complex<$real>) {
+                self.re[lane % $lanes] = value.re;
+                self.im[lane % $lanes] = value.im;
+            }
+
+            #[inline(always)]
+            fn plus(&self, other: &Self) -> Self {
+                Planar { re: self.re.plus(&other.re), im: self.im.plus(&other.im) }
+            }
+
+            #[inline(always)]
+            fn minus_scaled(&self, a: &Self, factor: Complex<$real>) -> Self {
+                let (re, im) = ($registers::load(&a.re), $registers::load(&a.im));
+                let real = $registers::load(&self.re).minus_scaled(re, factor.re).plus_scaled(im, factor.im);
+                let imaginary = $registers::load(&self.im).minus_scaled(re, factor.im).minus_scaled(im, factor.re);
+                Planar { re: real.store(), im: imaginary.store() }
+            }
+
+            #[inline(always)]
+            fn plus_product(&self, a: &Self, b: &Self) -> Self {
+                let (a_re, a_im) = ($registers::load(&a.re), $registers::load(&a.im));
+                let (b_re, b_im) = ($registers::load(&b.re), $registers::load(&b.im));
+                let real = $registers::load(&self.re).plus_product(a_re, b_re).minus_product(a_im, b_im);
+                let imaginary = $registers::load(&self.im).plus_product(a_re, b_im).plus_product(a_im, b_re);
+                Planar { re: real.store(), im: imaginary.store() }
+            }
+
+            #[inline(always)]
+            fn without_traces(self) -> Self {
+                Planar { re: self.re.without_traces(), im: self.im.without_traces() }
+            }
+
+            #[inline(always)]
+            fn sum(&self) -> Complex<$real> {
+                Complex::new(self.re.iter().sum(), self.im.iter().sum())
+            }
+
+            /// One after the other the four sums of a complex product: more of them at a time would not stay in registers.
+            #[inline(never)]
+            fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
+                let (blocks, rest) = result.as_chunks_mut::<4>();
+                let mut lane = 0;
+                for [r0, r1, r2, r3] in blocks {
+                    let units = || a.iter().zip(b);
+                    let sums = [
+                        $registers::load(&r0.re),
+                        $registers::load(&r1.re),
+                        $registers::load(&r2.re),
+                        $registers::load(&r3.re),
+                    ];
+                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.re, |b, j| b.re[(lane + j) % $lanes]);
+                    let sums = sum_products::<true, _, _>(sums, units(), |a| &a.im, |b, j| b.im[(lane + j) % $lanes]);
+                    let [s0, s1, s2, s3] = sums;
+                    (r0.re, r1.re, r2.re, r3.re) = (s0.store(), s1.store(), s2.store(), s3.store());
+                    let sums = [
+                        $registers::load(&r0.im),
+                        $registers::load(&r1.im),
+                        $registers::load(&r2.im),
+                        $registers::load(&r3.im),
+                    ];
+                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.re, |b, j| b.im[(lane + j) % $lanes]);
+                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.im, |b, j| b.re[(lane + j) % $lanes]);
+                    let [s0, s1, s2, s3] = sums;
+                    (r0.im, r1.im, r2.im, r3.im) = (s0.store(), s1.store(), s2.store(), s3.store());
+                    lane += 4;
+                }
+                update_each(rest, a, b, lane);
+            }
+        }
+    };
+}
+
+units!(f64, 4, Doubles);
+units!(f32, 8, Singles);
+
+/// [`Unit::update`] of results from lane `lane` on, one at a time.
+#[inline(never)]
+fn update_each<U: Unit>(results: &mut [U], a: &[U], b: &[U], mut lane: usize) {
+    for result in results {
+        let mut sum = *result;
+        for (a, b) in a.iter().zip(b) {
+            sum = sum.minus_scaled(a, b.lane(lane));
+        }
+        *result = sum;
+        lane += 1;
+    }
+}
