@@ -6,9 +6,7 @@ use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Arr
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
-use morse_smooth::smooth::{
-    Operator, Precision, Smoother, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
-};
+use morse_smooth::smooth::{Operator, Precision, Smoother, SmootherOptions, TikhonovOptions, epsilon_for_wavelength};
 use morse_smooth::wasm::{RawSmoother, RawTriMesh, Thrown, read_field, read_mesh, smooth, version, write_mesh};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -256,7 +254,8 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
         let options = SmootherOptions { operator: Operator::Fem, precision, ..SmootherOptions::default() };
         let epsilon = epsilon_for_wavelength(0.7).expect("a length");
         let mut native = Smoother::new(&mesh, options).expect("cotangents");
-        let expected = native.tikhonov(&f, &TikhonovOptions { epsilon, ..TikhonovOptions::default() }).expect("a solution");
+        let expected =
+            native.tikhonov(&f, &TikhonovOptions { epsilon, ..TikhonovOptions::default() }).expect("a solution");
         let given = js(&format!("{{ operator: 'fem', precision: '{text}' }}"));
         let mut smoother = RawSmoother::new(&raw(&mesh), &given).ok().expect("cotangents");
         let wavelength = js("{ cutoffWavelength: 0.7 }");
@@ -281,7 +280,11 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
             ("{ cutoffWavelength: '1' }", "InvalidOption", "cutoffWavelength"),
         ] {
             let (found, message, detail) = thrown(smoother.tikhonov(&array(&f), &js(text)));
-            assert_eq!((found.as_str(), get(&detail, "option").as_string().as_deref()), (code, Some(named)), "{message}");
+            assert_eq!(
+                (found.as_str(), get(&detail, "option").as_string().as_deref()),
+                (code, Some(named)),
+                "{message}"
+            );
         }
         let again: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
         assert_eq!(floats(&again, "values"), expected.values);

@@ -14,7 +14,8 @@ const MAY_IMPORT: [(&str, &[&str]); 7] = [
 ];
 
 /// Words that the numerical core does without, so that results depend on no platform, clock, hash order or global state.
-const NOT_IN_THE_CORE: [&str; 16] = [
+/// A fused multiplication and addition rounds once where WebAssembly rounds twice.
+const NOT_IN_THE_CORE: [&str; 17] = [
     "std::time",
     "Instant",
     "SystemTime",
@@ -31,7 +32,11 @@ const NOT_IN_THE_CORE: [&str; 16] = [
     ".atan2(",
     "f64::sin",
     "f64::cos",
+    "mul_add",
 ];
+
+/// The bibliography.
+const REFERENCES: &str = include_str!("../../src/references.md");
 
 /// A source without comments and without its text literals' content, which name things freely.
 fn code_of(source: &str) -> String {
@@ -165,6 +170,33 @@ fn every_source_keeps_to_its_layer() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// The keys in a text, such as `Patane09`: square brackets, a name, two digits.
+fn keys(text: &str) -> impl Iterator<Item = &str> {
+    text.split('[').skip(1).filter_map(|rest| {
+        let digits = rest.trim_start_matches(char::is_alphabetic);
+        let key = &rest[..rest.len() - digits.len() + digits.chars().take_while(char::is_ascii_digit).count()];
+        let year = key.trim_start_matches(char::is_alphabetic);
+        (key.starts_with(char::is_uppercase) && year.len() == 2 && key.len() > 4).then_some(key)
+    })
+}
+
+#[test]
+fn references_are_those_that_are_cited() {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in ["src", "tests", "benches"] {
+        sources(&base.join(folder), base, &mut files);
+    }
+    let (_, list) = REFERENCES.split_once("\n- ").expect("a list");
+    let listed: Vec<&str> = keys(list).collect();
+    let cited: Vec<&str> = files.iter().flat_map(|(_, source)| keys(source)).collect();
+    for (path, source) in &files {
+        keys(source)
+            .for_each(|key| assert!(listed.contains(&key), "{path} cites {key}, which is not in references.md"));
+    }
+    assert!(listed.is_sorted() && listed.iter().all(|key| cited.contains(key)), "{listed:?} beside {cited:?}");
+}
+
 #[test]
 fn the_check_catches_what_it_is_for() {
     let bad = [
@@ -178,6 +210,8 @@ fn the_check_catches_what_it_is_for() {
         ("mesh/connectivity.rs", "positions: Vec<f64>,"),
         ("field/link.rs", "use crate::operators;"),
         ("operators/mass.rs", "let x = angle.cos();"),
+        ("solve/scalar.rs", "let x = a.mul_add(b, c);"),
+        ("solve/ordering/graph.rs", "use crate::mesh::TriMesh;"),
         ("field/order.rs", "use std::collections::HashMap;"),
         ("smooth/mod.rs", "let t = std::time::Instant::now();"),
         ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),
