@@ -260,7 +260,7 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
         let mut smoother = RawSmoother::new(&raw(&mesh), &given).ok().expect("cotangents");
         let wavelength = js("{ cutoffWavelength: 0.7 }");
         let long: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
-        let all: JsValue = Object::assign(given.unchecked_ref(), wavelength.unchecked_ref()).into();
+        let all: JsValue = Object::<JsValue>::assign(given.unchecked_ref(), wavelength.unchecked_ref()).into();
         let short: JsValue = smooth(&raw(&mesh), &array(&f), &all).ok().expect("a solution").into();
         for found in [&long, &short] {
             assert_eq!(floats(found, "values"), expected.values);
