@@ -3,6 +3,9 @@
 //! The crate implements G. Patanè and B. Falcidieno, *Computing Smooth Approximations of Scalar Functions with
 //! Constraints* (\[Patane09\] in `references.md`). Data flows one way: [`io`] → [`mesh`] → [`operators`] and [`field`] →
 //! [`smooth`], with [`solve`] knowing matrices only.
+//!
+//! The kernels of [`solve`] are vectorised for the processor that the compiler is told: natively with
+//! `RUSTFLAGS="-C target-cpu=native"`, for WebAssembly with `-C target-feature=+simd128`. Results do not depend on that.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod error;

@@ -6,7 +6,7 @@ use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Arr
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
-use morse_smooth::smooth::{Smoother, SmootherOptions, TikhonovOptions};
+use morse_smooth::smooth::{Operator, Precision, Smoother, SmootherOptions, TikhonovOptions, epsilon_for_wavelength};
 use morse_smooth::wasm::{RawSmoother, RawTriMesh, Thrown, read_field, read_mesh, smooth, version, write_mesh};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -247,6 +247,53 @@ fn smoothing_is_that_of_rust() {
 }
 
 #[wasm_bindgen_test]
+fn finite_elements_and_single_precision_are_those_of_rust() {
+    let mesh = torus();
+    let f = noise(mesh.vertex_count());
+    for (text, precision) in [("double", Precision::Double), ("single", Precision::Single)] {
+        let options = SmootherOptions { operator: Operator::Fem, precision, ..SmootherOptions::default() };
+        let epsilon = epsilon_for_wavelength(0.7).expect("a length");
+        let mut native = Smoother::new(&mesh, options).expect("cotangents");
+        let expected =
+            native.tikhonov(&f, &TikhonovOptions { epsilon, ..TikhonovOptions::default() }).expect("a solution");
+        let given = js(&format!("{{ operator: 'fem', precision: '{text}' }}"));
+        let mut smoother = RawSmoother::new(&raw(&mesh), &given).ok().expect("cotangents");
+        let wavelength = js("{ cutoffWavelength: 0.7 }");
+        let long: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
+        let all: JsValue = Object::<JsValue>::assign(given.unchecked_ref(), wavelength.unchecked_ref()).into();
+        let short: JsValue = smooth(&raw(&mesh), &array(&f), &all).ok().expect("a solution").into();
+        for found in [&long, &short] {
+            assert_eq!(floats(found, "values"), expected.values);
+            let report = get(found, "report");
+            assert_eq!(number(&report, "epsilon"), epsilon);
+            assert_eq!(get(&report, "equation"), JsValue::from_str("fem"));
+            let solver = get(&report, "solver");
+            assert_eq!(get(&solver, "route"), JsValue::from_str("complexCholesky"));
+            assert_eq!(get(&solver, "precision"), JsValue::from_str(text));
+            assert_eq!(number(&solver, "factorNonzeros"), expected.reports[0].solver.factor_nonzeros as f64);
+        }
+        for (text, code, named) in [
+            ("{ cutoffWavelength: 0.7, epsilon: 1 }", "InapplicableOption", "epsilon"),
+            ("{ cutoffWavelength: 0.7, metric: 'mass' }", "InapplicableOption", "metric"),
+            ("{ epsilon: 1, massScale: 'raw' }", "InapplicableOption", "massScale"),
+            ("{ cutoffWavelength: 0 }", "InvalidOption", "cutoffWavelength"),
+            ("{ cutoffWavelength: '1' }", "InvalidOption", "cutoffWavelength"),
+        ] {
+            let (found, message, detail) = thrown(smoother.tikhonov(&array(&f), &js(text)));
+            assert_eq!(
+                (found.as_str(), get(&detail, "option").as_string().as_deref()),
+                (code, Some(named)),
+                "{message}"
+            );
+        }
+        let again: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
+        assert_eq!(floats(&again, "values"), expected.values);
+    }
+    let mut papers = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
+    assert_eq!(thrown(papers.tikhonov(&array(&f), &js("{ cutoffWavelength: 1 }"))).0, "InapplicableOption");
+}
+
+#[wasm_bindgen_test]
 fn progress_is_told_and_cannot_harm() {
     let mesh = raw(&torus());
     let f = array(&noise(108));
@@ -299,7 +346,10 @@ fn wrong_options_are_refused_by_name() {
     for (text, code) in [
         ("{ weights: 'cotan' }", "InvalidOption"),
         ("{ weights: 'intrinsicDelaunay' }", "UnsupportedOption"),
-        ("{ operator: 'fem' }", "UnsupportedOption"),
+        ("{ operator: 'fem', weights: 'uniform' }", "InapplicableOption"),
+        ("{ operator: 'finite' }", "InvalidOption"),
+        ("{ precision: 'half' }", "InvalidOption"),
+        ("{ bounds: true }", "UnsupportedOption"),
         ("{ solver: 'cg', colour: 1 }", "UnknownOption"),
         ("{ bounds: 'yes' }", "InvalidOption"),
     ] {

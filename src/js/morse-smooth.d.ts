@@ -50,7 +50,9 @@ export class MorseSmoothError extends Error {
    * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`,
    *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
    * - fields: `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`
-   * - systems: `NotPositiveDefinite`, `IndefinitePreconditioner`, `NotConverged`, `OutOfMemory`
+   * - systems: `NotPositiveDefinite` (`column`: the vertex at which a factorisation or an iteration failed),
+   *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached), `OutOfMemory`
+   *   (`bytes` needed)
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`
    * - `InternalError`: a bug of ours, always worth a report
@@ -322,20 +324,41 @@ export type MassScale = 'meanOne' | 'raw';
  */
 export type Metric = 'identity' | 'mass' | 'lumped';
 
+/**
+ * The operator whose square is the smoothness: `"paper"` is LᵀL beside εB; `"fem"` is L M⁻¹ L beside εM, with the cotangent
+ * Laplacian L and the lumped areas M in the units of the mesh. The latter is the Laplace–Beltrami operator by finite elements:
+ * what an ε does then depends on the surface and not on how finely it is meshed.
+ */
+export type Operator = 'paper' | 'fem';
+
+/**
+ * The precision of factors. `"single"` takes half the memory for a factor and refines the solution to about the same accuracy;
+ * where the system is too badly conditioned for that, the factor is computed in double precision after all.
+ */
+export type Precision = 'double' | 'single';
+
 /** How far a long call has come. */
 export interface Progress {
   /** What begins now. */
   phase: 'analysis' | 'factorization' | 'solve' | 'report';
-  /** How much of the whole is done: from 0 to 1. */
+  /** How much of the whole is done: from 0 to 1. Goes back where a way to solve the system is given up for another one. */
   fraction: number;
 }
 
 /** How systems are set up and solved. */
 export interface SmootherOptions {
-  /** Default `"cotangent"`. */
+  /** Default `"cotangent"`, and operator `"fem"` has no other: `InapplicableOption`. */
   weights?: LaplacianWeights;
-  /** `"cholesky"` factorises, `"cg"` iterates; `"auto"` (default) chooses. */
+  /** Default `"paper"`. */
+  operator?: Operator;
+  /**
+   * `"cholesky"` solves with a sparse factor. `"cg"` iterates without one: little memory, and with weights that are not
+   * symmetric many iterations for small ε. `"auto"` (default) takes the route that is expected to be fastest, and one that
+   * needs less memory where that is short. {@link SolverReport.route} says which it was.
+   */
   solver?: 'auto' | 'cholesky' | 'cg';
+  /** Of factors; iterations without one are in double precision. Default `"double"`. */
+  precision?: Precision;
   /** Called while work goes on. What it throws comes out of that call; the objects stay usable. */
   onProgress?: (progress: Progress) => void;
 }
@@ -343,14 +366,24 @@ export interface SmootherOptions {
 /** Of Tikhonov smoothing. */
 export interface TikhonovOptions {
   /**
-   * ε > 0, without a unit (with scale `"raw"`: per area). Large keeps the field, small smooths it; the range of interest is
-   * wide, say 1e-6 to 1e4.
+   * ε > 0, without a unit (with scale `"raw"`: per area; with operator `"fem"`: per length⁴). Large keeps the field, small
+   * smooths it; the range of interest is wide, say 1e-6 to 1e4 where ε has no unit.
    */
   epsilon: number;
-  /** Default `"mass"`. */
+  /** Default `"mass"`. Operator `"fem"` has its own: `InapplicableOption`. */
   metric?: Metric;
-  /** Default `"meanOne"`. Metric `"identity"` has no mass to scale: `InapplicableOption`. */
+  /** Default `"meanOne"`. Metric `"identity"` has no mass to scale, operator `"fem"` its own: `InapplicableOption`. */
   massScale?: MassScale;
+}
+
+/** Of Tikhonov smoothing with operator `"fem"`, by a length instead of ε. */
+export interface WavelengthOptions {
+  /**
+   * Waves of this length ℓ, in the units of the mesh, are left with half their amplitude, shorter ones with less: ε is
+   * (2π/ℓ)⁴. Sensible between the mean length of the edges and the diameter of the mesh. With operator `"paper"`, or beside
+   * `epsilon`: `InapplicableOption`.
+   */
+  cutoffWavelength: number;
 }
 
 /** Smooths fields on one mesh. What depends on the mesh alone is worked out once. */
@@ -359,13 +392,16 @@ export class Smoother {
   constructor(mesh: TriMesh, options?: SmootherOptions);
 
   /**
-   * The minimiser x of ‖Lx‖² + ε·(x − f)ᵀB(x − f), from (LᵀL + εB) x = εBf. Constants stay as they are.
+   * The minimiser x of ‖Lx‖² + ε·(x − f)ᵀB(x − f), from (LᵀL + εB) x = εBf; with operator `"fem"` from
+   * (L M⁻¹ L + εM) x = εMf. Constants stay as they are. After an error the smoother works on as before.
    *
    * @param options `channels`: how many numbers each vertex has, side by side. Default 1
-   * @throws `InvalidOption` for ε ≤ 0; `LengthMismatch`, `NonFiniteValue`; `NotPositiveDefinite` or `NotConverged` where ε is too
-   *   small for the mesh; `OutOfMemory` (`bytes`) where it is too large to factorise
+   * @throws `InvalidOption` for ε ≤ 0; `InapplicableOption`; `LengthMismatch`, `NonFiniteValue`; `NotPositiveDefinite`,
+   *   `IndefinitePreconditioner` or `NotConverged` where ε is too small for the mesh; `OutOfMemory` where the mesh is too large
+   *   for the solver chosen
    */
   tikhonov(values: Numbers, options: TikhonovOptions & { channels?: number }): Smoothed;
+  tikhonov(values: Numbers, options: WavelengthOptions & { channels?: number }): Smoothed;
 
   /** Gives the memory back, as {@link TriMesh.free} does. */
   free(): void;
@@ -385,7 +421,7 @@ export interface Smoothed {
 /** What smoothing did to a field f. Norms and differences are those of f scaled to [0, 1], so that fields can be compared. */
 export interface SmoothReport {
   method: string;
-  /** Of the paper, such as `"(5)"`. */
+  /** Of the paper, such as `"(5)"`; `"fem"` for that operator. */
   equation: string;
   epsilon: number | null;
   constraintCount: number;
@@ -414,21 +450,42 @@ export interface SmoothReport {
 
 /** How the system was solved. */
 export interface SolverReport {
-  /** `"none"` where there was nothing to solve. */
-  route: 'cholesky' | 'cg' | 'none';
+  /**
+   * - `"complexCholesky"`: a complex factor on the pattern of L, which solves eq. (3) and operator `"fem"`
+   * - `"cholesky"`: a real factor on the pattern of LᵀL
+   * - `"cgComplexCholesky"`: conjugate gradients, preconditioned by the complex factor; for eq. (5) where LᵀL is large
+   * - `"cgMultigrid"`: conjugate gradients, preconditioned by multigrid, without a factor
+   * - `"cgJacobi"`: conjugate gradients, preconditioned by the diagonal
+   * - `"none"`: there was nothing to solve
+   *
+   * Only the second and the fifth can do with weights that are not symmetric.
+   */
+  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none';
+  /** Of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
+  precision: 'double' | 'single' | 'doubleAfterSingle';
+  /** Size of the system. */
   unknowns: number;
+  /** Entries of the factor; 0 without one. */
   factorNonzeros: number;
-  /** ‖b − Ax‖/‖b‖ of the system solved. */
+  /** ‖b − Ax‖/‖b‖ of the system solved, with its matrix in factored form. */
   relativeResidual: number;
+  /** Corrections of the first solution. */
   refinementSteps: number;
-  /** Of conjugate gradients; 0 with a factorisation. */
+  /** Of conjugate gradients, those for corrections included; 0 where the factor itself solves. */
   iterations: number;
 }
 
 /** Smooths one field once. For several, or for several ε, a {@link Smoother} is quicker. */
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothOptions): Smoothed;
+export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthOptions): Smoothed;
 
 /** What {@link smooth} takes. */
 export interface SmoothOptions extends SmootherOptions, TikhonovOptions {
+  method?: 'tikhonov';
+}
+
+/** What {@link smooth} takes with operator `"fem"`, by a length instead of ε. */
+export interface SmoothByWavelengthOptions extends SmootherOptions, WavelengthOptions {
+  operator: 'fem';
   method?: 'tikhonov';
 }

@@ -28,8 +28,10 @@ pub(super) struct Refinement<'a> {
     /// The residual of a right-hand side at an approximate solution.
     pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
-    pub(super) solve: &'a mut dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>,
+    pub(super) solve: &'a mut Solve<'a>,
 }
+
+type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError> + 'a;
 
 /// Starts from zero and adds the solution for the residual until little is added, for each right-hand side for as long as
 /// it needs.
@@ -40,15 +42,15 @@ pub(super) struct Refinement<'a> {
 /// # Errors
 /// `NotConverged` where corrections do not shrink; those of the solver.
 pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
-    let n = task.length;
+    let Refinement { count, length: n, tolerance, residual, solve } = task;
     let start = Iterate { x: vec![0.0; n], ..Iterate::default() };
-    let mut iterates = vec![start; task.count];
-    let mut open: Vec<usize> = (0..task.count).collect();
-    let (mut previous, mut slowest) = (vec![1.0; task.count], vec![0.0_f64; task.count]);
+    let mut iterates = vec![start; count];
+    let mut open: Vec<usize> = (0..count).collect();
+    let (mut previous, mut slowest) = (vec![1.0; count], vec![0.0_f64; count]);
     for step in 0..=MOST_STEPS {
-        let residuals: Vec<f64> = open.iter().flat_map(|&c| (task.residual)(c, &iterates[c].x)).collect();
+        let residuals: Vec<f64> = open.iter().flat_map(|&c| residual(c, &iterates[c].x)).collect();
         let mut iterations = vec![0; open.len()];
-        let corrections = (task.solve)(&residuals, &mut iterations)?;
+        let corrections = solve(&residuals, &mut iterations)?;
         let mut still_open = Vec::new();
         for ((&c, correction), iterations) in open.iter().zip(corrections.chunks_exact(n)).zip(iterations) {
             let iterate = &mut iterates[c];
@@ -70,7 +72,7 @@ pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
             }
             previous[c] = size;
             slowest[c] = slowest[c].max(shrunk);
-            if size > ROUNDING && size * slowest[c] > task.tolerance {
+            if size > ROUNDING && size * slowest[c] > tolerance {
                 still_open.push(c);
             }
         }

@@ -16,7 +16,7 @@ pub(super) const SMOOTHER: &[&str] = &["weights", "operator", "solver", "precisi
 /// The names that `Smoother.tikhonov` takes.
 pub(super) const TIKHONOV: &[&str] = &["epsilon", "cutoffWavelength", "metric", "massScale", "channels"];
 /// The names that `smooth` takes besides those of [`SMOOTHER`].
-const SMOOTH: &[&str] = &["method", "metric", "massScale", "epsilon", "constraints", "energy"];
+const SMOOTH: &[&str] = &["method", "metric", "massScale", "epsilon", "cutoffWavelength", "constraints", "energy"];
 
 /// All options of all functions: each function names those it takes. One type of few kinds of fields keeps the module small,
 /// because serde writes the code for every type anew.

@@ -14,7 +14,8 @@ const MAY_IMPORT: [(&str, &[&str]); 7] = [
 ];
 
 /// Words that the numerical core does without, so that results depend on no platform, clock, hash order or global state.
-const NOT_IN_THE_CORE: [&str; 16] = [
+/// A fused multiplication and addition rounds once where WebAssembly rounds twice.
+const NOT_IN_THE_CORE: [&str; 17] = [
     "std::time",
     "Instant",
     "SystemTime",
@@ -31,7 +32,26 @@ const NOT_IN_THE_CORE: [&str; 16] = [
     ".atan2(",
     "f64::sin",
     "f64::cos",
+    "mul_add",
 ];
+
+/// The files of the solver in groups: each file may use those of its own group and of the groups before.
+const SOLVER: [&[&str]; 11] = [
+    &["matrix"],
+    &["ordering"],
+    &["tree", "supernodes", "symbolic"],
+    &["scalar", "unit", "lanes"],
+    &["front"],
+    &["multifrontal", "triangular"],
+    &["cholesky"],
+    &["rows", "preconditioner", "cg"],
+    &["elimination", "aggregation"],
+    &["multigrid", "squared"],
+    &["mod"],
+];
+
+/// The bibliography.
+const REFERENCES: &str = include_str!("../../src/references.md");
 
 /// A source without comments and without its text literals' content, which name things freely.
 fn code_of(source: &str) -> String {
@@ -100,6 +120,20 @@ fn imports(code: &str) -> Vec<String> {
         .collect()
 }
 
+/// What a file of the solver does against their order.
+fn disorder(name: &str, code: &str) -> Vec<String> {
+    if name.starts_with("ordering/") {
+        let leaves = code.contains("super::super");
+        return leaves.then(|| "knows more than patterns".to_owned()).into_iter().collect();
+    }
+    let Some(group) = SOLVER.iter().position(|group| group.contains(&name)) else {
+        return vec!["has no place among the files of the solver yet".to_owned()];
+    };
+    let later = SOLVER[group + 1..].iter().copied().flatten();
+    let used = later.filter(|later| code.contains(&format!("super::{later}::")));
+    used.map(|later| format!("uses `{later}`, which comes after it")).collect()
+}
+
 /// Everything that one file does against the rules. `path` is relative to `src`, with slashes.
 fn violations(path: &str, source: &str) -> Vec<String> {
     let code = code_of(source);
@@ -123,6 +157,9 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     }
     if path == "mesh/connectivity.rs" {
         forbid(&["f64", "f32"], "the connectivity holds no positions");
+    }
+    if let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_suffix(".rs")) {
+        found.extend(disorder(name, &code).into_iter().map(|what| format!("{path} {what}")));
     }
     match MAY_IMPORT.iter().find(|(name, _)| *name == module) {
         None => found.push(format!("{path}: the module `{module}` has no place in the layers yet")),
@@ -165,6 +202,33 @@ fn every_source_keeps_to_its_layer() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// The keys in a text, such as `Patane09`: square brackets, a name, two digits.
+fn keys(text: &str) -> impl Iterator<Item = &str> {
+    text.split('[').skip(1).filter_map(|rest| {
+        let digits = rest.trim_start_matches(char::is_alphabetic);
+        let key = &rest[..rest.len() - digits.len() + digits.chars().take_while(char::is_ascii_digit).count()];
+        let year = key.trim_start_matches(char::is_alphabetic);
+        (key.starts_with(char::is_uppercase) && year.len() == 2 && key.len() > 4).then_some(key)
+    })
+}
+
+#[test]
+fn references_are_those_that_are_cited() {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in ["src", "tests", "benches"] {
+        sources(&base.join(folder), base, &mut files);
+    }
+    let (_, list) = REFERENCES.split_once("\n- ").expect("a list");
+    let listed: Vec<&str> = keys(list).collect();
+    let cited: Vec<&str> = files.iter().flat_map(|(_, source)| keys(source)).collect();
+    for (path, source) in &files {
+        keys(source)
+            .for_each(|key| assert!(listed.contains(&key), "{path} cites {key}, which is not in references.md"));
+    }
+    listed.iter().for_each(|key| assert!(cited.contains(key), "nothing cites {key} of references.md"));
+}
+
 #[test]
 fn the_check_catches_what_it_is_for() {
     let bad = [
@@ -178,6 +242,11 @@ fn the_check_catches_what_it_is_for() {
         ("mesh/connectivity.rs", "positions: Vec<f64>,"),
         ("field/link.rs", "use crate::operators;"),
         ("operators/mass.rs", "let x = angle.cos();"),
+        ("solve/scalar.rs", "let x = a.mul_add(b, c);"),
+        ("solve/ordering/graph.rs", "use crate::mesh::TriMesh;"),
+        ("solve/ordering/graph.rs", "use super::super::matrix::norm;"),
+        ("solve/tree.rs", "use super::scalar::Scalar;"),
+        ("solve/lu.rs", "fn f() {}"),
         ("field/order.rs", "use std::collections::HashMap;"),
         ("smooth/mod.rs", "let t = std::time::Instant::now();"),
         ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),

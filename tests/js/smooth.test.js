@@ -1,7 +1,19 @@
 import init, { Smoother, TriMesh, smooth } from 'morse-smooth';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { expectError } from './errors.js';
-import { apply, dense, dot, heights, octahedron, random, sum, tetrahedron, torus } from './meshes.js';
+import {
+  apply,
+  component,
+  dense,
+  dot,
+  heights,
+  octahedron,
+  random,
+  square,
+  sum,
+  tetrahedron,
+  torus,
+} from './meshes.js';
 
 beforeAll(() => init());
 
@@ -59,7 +71,7 @@ describe('tikhonov', () => {
       preserved: null,
       freeExtrema: null,
       perturbationFactor: null,
-      solver: { route: 'cholesky', unknowns: 63, iterations: 0 },
+      solver: { route: 'complexCholesky', precision: 'double', unknowns: 63, iterations: 0 },
     });
     expect(report.solver.relativeResidual).toBeLessThan(1e-10);
     expect(report.solver.factorNonzeros).toBeGreaterThan(63);
@@ -100,7 +112,7 @@ describe('tikhonov', () => {
     const expected = run({ solver: 'cholesky' }).values;
     expect(run({ solver: 'auto' }).values).toEqual(expected);
     const iterated = run({ solver: 'cg' });
-    expect(iterated.report.solver.route).toBe('cg');
+    expect(iterated.report.solver).toMatchObject({ route: 'cgMultigrid', factorNonzeros: 0 });
     expect(iterated.report.solver.iterations).toBeGreaterThan(0);
     iterated.values.forEach((value, i) => expect(value).toBeCloseTo(expected[i], 7));
     for (const weights of ['uniform', 'meanValue', 'normalizedCotangent']) {
@@ -150,6 +162,41 @@ describe('tikhonov', () => {
     expect(again.report.before.minima).toBeGreaterThan(0);
   });
 
+  it('reports the route that it took', () => {
+    const mesh = small();
+    const f = noise(63, 12);
+    const route = (smoother, options) =>
+      new Smoother(mesh, smoother).tikhonov(f, { epsilon: 0.05, ...options }).report.solver.route;
+    for (const solver of ['auto', 'cholesky']) {
+      expect(route({ solver }, { metric: 'identity' })).toBe('complexCholesky');
+      expect(route({ solver, operator: 'fem' })).toBe('complexCholesky');
+      expect(route({ solver })).toBe('cholesky');
+      expect(route({ solver }, { metric: 'lumped' })).toBe('cholesky');
+      expect(route({ solver, weights: 'meanValue' }, { metric: 'identity' })).toBe('cholesky');
+    }
+    for (const [smoother, expected] of [
+      [{}, 'cgMultigrid'],
+      [{ operator: 'fem' }, 'cgMultigrid'],
+      [{ weights: 'uniform' }, 'cgMultigrid'],
+      [{ weights: 'normalizedCotangent' }, 'cgJacobi'],
+    ]) {
+      expect(route({ ...smoother, solver: 'cg' })).toBe(expected);
+      expect(route({ ...smoother, solver: 'cg', precision: 'single' })).toBe(expected);
+    }
+    const flat = new TriMesh([0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 1, 2]);
+    const { values, report } = smooth(flat, [1, 2, 3], { epsilon: 1, metric: 'identity' });
+    expect([...values]).toEqual([1, 2, 3]);
+    expect(report.solver).toEqual({
+      route: 'none',
+      precision: 'double',
+      unknowns: 0,
+      factorNonzeros: 0,
+      relativeResidual: 0,
+      refinementSteps: 0,
+      iterations: 0,
+    });
+  });
+
   it('copes with several components and isolated vertices', () => {
     const { positions, triangles } = octahedron();
     const mesh = new TriMesh(
@@ -163,6 +210,165 @@ describe('tikhonov', () => {
     const alone = smooth(make(octahedron()), f.slice(0, 6), { epsilon: 0.2, massScale: 'raw' }).values;
     const together = smooth(mesh, f, { epsilon: 0.2, massScale: 'raw' }).values;
     alone.forEach((value, i) => expect(together[i]).toBeCloseTo(value, 12));
+  });
+});
+
+describe('with operator fem, tikhonov', () => {
+  const fem = { operator: 'fem' };
+
+  it('solves (L M⁻¹ L + εM) x = εMf', () => {
+    const mesh = small();
+    const f = noise(63, 13);
+    const L = dense(mesh.laplacian());
+    const areas = Float64Array.from(
+      { length: 63 },
+      (_, i) => dense(mesh.mass({ kind: 'lumped', massScale: 'raw' }))[i][i],
+    );
+    for (const solver of ['auto', 'cholesky', 'cg']) {
+      for (const epsilon of [1e-2, 1, 1e3]) {
+        const { values: x, report } = new Smoother(mesh, { ...fem, solver }).tikhonov(f, { epsilon });
+        const left = apply(
+          L,
+          apply(L, x).map((entry, i) => entry / areas[i]),
+        ).map((entry, i) => entry + epsilon * areas[i] * x[i]);
+        const right = f.map((entry, i) => epsilon * areas[i] * entry);
+        const error = left.map((entry, i) => entry - right[i]);
+        expect(Math.sqrt(dot(error, error) / dot(right, right))).toBeLessThan(1e-10);
+        expect(report).toMatchObject({ equation: 'fem', epsilon });
+      }
+    }
+  });
+
+  it('takes a wavelength ℓ for ε = (2π/ℓ)⁴', () => {
+    const mesh = small();
+    const f = noise(63, 14);
+    const smoother = new Smoother(mesh, fem);
+    for (const cutoffWavelength of [0.5, 2, 10]) {
+      const epsilon = ((2 * Math.PI) / cutoffWavelength) ** 4;
+      const by = smoother.tikhonov(f, { cutoffWavelength });
+      const { values } = smoother.tikhonov(f, { epsilon });
+      expect(by.report.epsilon / epsilon).toBeCloseTo(1, 14);
+      by.values.forEach((value, i) => expect(value).toBeCloseTo(values[i], 12));
+      expect(smooth(mesh, f, { ...fem, cutoffWavelength, method: 'tikhonov' })).toEqual(by);
+    }
+    const twice = smoother.tikhonov(
+      Float64Array.from({ length: 126 }, (_, k) => f[k >> 1]),
+      {
+        cutoffWavelength: 2,
+        channels: 2,
+      },
+    );
+    expect(twice.reports.length).toBe(2);
+  });
+
+  it('halves a wave of that length, however large and fine the mesh is', () => {
+    for (const [size, cells] of [
+      [1e-3, 24],
+      [1, 24],
+      [1e4, 48],
+    ]) {
+      const { positions, triangles } = square(cells);
+      const mesh = new TriMesh(
+        positions.map((x) => (x * size) / cells),
+        triangles,
+      );
+      // cos(2πx) and cos(4πx) fit a square of side 1 without flow over its boundary.
+      for (const [waves, left] of [
+        [1, 16 / 17],
+        [2, 1 / 2],
+      ]) {
+        const wave = Float64Array.from(component(positions, 0), (x) => Math.cos((2 * Math.PI * waves * x) / cells));
+        const { values } = smooth(mesh, wave, { ...fem, cutoffWavelength: size / 2 });
+        values.forEach((value, i) => expect(Math.abs(value - left * wave[i])).toBeLessThan(0.04));
+      }
+    }
+  });
+
+  it('refuses what does not go with it, and goes on working', () => {
+    const mesh = small();
+    const f = noise(63, 15);
+    const smoother = new Smoother(mesh, fem);
+    const before = smoother.tikhonov(f, { cutoffWavelength: 2 });
+    const refused = (code, option, options) => {
+      expectError(() => smoother.tikhonov(f, options), code, { option });
+      expectError(() => smooth(mesh, f, { ...fem, ...options }), code, { option });
+    };
+    for (const metric of ['mass', 'identity', 'lumped']) {
+      refused('InapplicableOption', 'metric', { epsilon: 1, metric });
+      refused('InapplicableOption', 'metric', { cutoffWavelength: 1, metric });
+    }
+    for (const massScale of ['raw', 'meanOne']) {
+      refused('InapplicableOption', 'massScale', { epsilon: 1, massScale });
+      refused('InapplicableOption', 'massScale', { cutoffWavelength: 1, massScale });
+    }
+    refused('InapplicableOption', 'epsilon', { cutoffWavelength: 1, epsilon: 1 });
+    for (const cutoffWavelength of [0, -1, NaN, Infinity, 1e-100, 1e100, '1', [1], true]) {
+      refused('InvalidOption', 'cutoffWavelength', { cutoffWavelength });
+    }
+    refused('InvalidOption', 'epsilon', {});
+    refused('InvalidOption', 'epsilon', { cutoffWavelength: null });
+    refused('UnknownOption', 'cutoffwavelength', { cutoffwavelength: 1 });
+    expectError(() => smoother.tikhonov([...f.slice(1), NaN], { cutoffWavelength: 2 }), 'NonFiniteValue', {
+      vertex: 62,
+    });
+    expect(smoother.tikhonov(f, { cutoffWavelength: 2 })).toEqual(before);
+
+    for (const weights of ['uniform', 'meanValue', 'normalizedCotangent']) {
+      expectError(() => new Smoother(mesh, { ...fem, weights }), 'InapplicableOption', { option: 'weights' });
+    }
+    expect(new Smoother(mesh, { ...fem, weights: 'cotangent' }).tikhonov(f, { cutoffWavelength: 2 })).toEqual(before);
+  });
+
+  it('alone takes a wavelength', () => {
+    const mesh = small();
+    const f = noise(63, 16);
+    const inapplicable = { option: 'cutoffWavelength' };
+    for (const options of [{}, { operator: 'paper' }]) {
+      const smoother = new Smoother(mesh, options);
+      for (const more of [{}, { epsilon: 1 }, { metric: 'identity' }]) {
+        expectError(() => smoother.tikhonov(f, { cutoffWavelength: 1, ...more }), 'InapplicableOption', inapplicable);
+      }
+      expectError(() => smooth(mesh, f, { cutoffWavelength: 1, ...options }), 'InapplicableOption', inapplicable);
+      expect(smoother.tikhonov(f, { epsilon: 1 })).toEqual(smooth(mesh, f, { epsilon: 1 }));
+    }
+  });
+});
+
+describe('single precision', () => {
+  const shape = torus(60, 30);
+  const field = () => {
+    const jitter = random(4);
+    return heights(shape).map((z) => z + 0.2 * (jitter() - 0.5));
+  };
+
+  it.each([
+    ['paper', { epsilon: 1, metric: 'identity' }],
+    ['paper', { epsilon: 1e-4, metric: 'identity' }],
+    ['paper', { epsilon: 0.05 }],
+    ['paper', { epsilon: 10, metric: 'lumped' }],
+    ['fem', { cutoffWavelength: 0.8 }],
+    ['fem', { epsilon: 0.01 }],
+  ])('comes to the same with operator %s, %o', (operator, options) => {
+    const mesh = make(shape);
+    const f = field();
+    const double = new Smoother(mesh, { operator }).tikhonov(f, options);
+    const single = new Smoother(mesh, { operator, precision: 'single' }).tikhonov(f, options);
+    expect(double.report.solver.precision).toBe('double');
+    expect(single.report.solver).toMatchObject({ precision: 'single', route: double.report.solver.route });
+    expect(single.report.solver.refinementSteps).toBeGreaterThan(0);
+    const range = Math.max(...f) - Math.min(...f);
+    single.values.forEach((value, i) => expect(Math.abs(value - double.values[i]) / range).toBeLessThan(1e-9));
+    expect(single.report.after).toEqual(double.report.after);
+  });
+
+  it('gives way to double precision where it is not enough', () => {
+    const mesh = make(shape);
+    const f = field();
+    const smoother = new Smoother(mesh, { precision: 'single' });
+    const hard = smoother.tikhonov(f, { epsilon: 1e-8 });
+    expect(hard.report.solver.precision).toBe('doubleAfterSingle');
+    expect(hard.values).toEqual(new Smoother(mesh).tikhonov(f, { epsilon: 1e-8 }).values);
+    expect(smoother.tikhonov(f, { epsilon: 1 }).report.solver.precision).toBe('single');
   });
 });
 
@@ -193,16 +399,66 @@ describe('survives', () => {
     const fan = Array.from({ length: n }, (_, i) => [0, i + 1, ((i + 1) % n) + 1]);
     const mesh = new TriMesh([0, 0, 1, ...rim.flat()], fan.flat());
     const f = noise(n + 1, 1);
-    const smoother = new Smoother(mesh);
-    expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory');
-    expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory');
+    for (const precision of ['double', 'single']) {
+      const smoother = new Smoother(mesh, { solver: 'cholesky', precision });
+      expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory', { bytes: expect.any(Number) });
+      expectError(() => smoother.tikhonov(f, { epsilon: 1 }), 'OutOfMemory');
+      expect(smoother.tikhonov(f, { epsilon: 1, metric: 'identity' }).report.solver.route).toBe('complexCholesky');
+    }
+    const fractions = [];
+    const { report } = smooth(mesh, f, { epsilon: 1, onProgress: ({ fraction }) => fractions.push(fraction) });
+    expect(report.solver.route).toBe('cgComplexCholesky');
+    expect(report.solver.relativeResidual).toBeLessThan(1e-9);
+    expect(fractions.at(-1)).toBe(1);
     expect(mesh.criticalPoints(f).counts.indexSum).toBe(1);
     expect(smooth(small(), noise(63, 1), { epsilon: 1 }).report.after.indexSum).toBe(0);
   });
 });
 
+describe('after a system that is too badly conditioned', () => {
+  it('a smoother goes on working', () => {
+    const mesh = make(torus(60, 30));
+    const f = noise(1800, 1);
+    const smoothers = [{}, { operator: 'fem' }, { solver: 'cg' }, { precision: 'single' }, { weights: 'meanValue' }];
+    for (const options of smoothers) {
+      const smoother = new Smoother(mesh, options);
+      const before = smoother.tikhonov(f, { epsilon: 0.1 });
+      expectError(() => smoother.tikhonov(f, { epsilon: 1e-300 }), 'NotPositiveDefinite', { column: 0 });
+      expect(smoother.tikhonov(f, { epsilon: 0.1 })).toEqual(before);
+    }
+  });
+
+  it('the vertex is named, not the unknown', () => {
+    const { positions, triangles } = octahedron();
+    // The first three vertices are isolated, and no unknowns.
+    const mesh = new TriMesh(
+      [...new Array(9).fill(5), ...positions],
+      triangles.map((i) => i + 3),
+    );
+    const call = () => smooth(mesh, noise(9, 1), { epsilon: 1e-300 });
+    expectError(call, 'NotPositiveDefinite', { column: 3 });
+  });
+});
+
 describe('progress', () => {
-  it('is told phase by phase', () => {
+  it.each([
+    [{}, {}],
+    [{}, { metric: 'identity' }],
+    [{ operator: 'fem', precision: 'single' }, {}],
+  ])('is told phase by phase: %o, %o', (options, more) => {
+    const phases = [];
+    const smoother = new Smoother(small(), { ...options, onProgress: ({ phase }) => phases.push(phase) });
+    const call = (epsilon) => {
+      phases.length = 0;
+      smoother.tikhonov(noise(63, 1), { epsilon, ...more });
+      return phases;
+    };
+    expect(call(1)).toEqual(['analysis', 'factorization', 'solve', 'report', 'report']);
+    expect(call(2)).toEqual(['factorization', 'solve', 'report', 'report']);
+    expect(call(2)).toEqual(['solve', 'report', 'report']);
+  });
+
+  it('never goes back, whether there is a factor or not', () => {
     const seen = [];
     const onProgress = (progress) => seen.push(progress);
     const smoother = new Smoother(small(), { onProgress });
@@ -216,8 +472,8 @@ describe('progress', () => {
     const fractions = seen.map(({ fraction }) => fraction);
     expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
     seen.length = 0;
-    smooth(small(), noise(63, 1), { epsilon: 0.1, onProgress });
-    expect(seen.length).toBeGreaterThan(2);
+    smooth(small(), noise(63, 1), { epsilon: 0.1, solver: 'cg', onProgress });
+    expect(seen.map(({ phase }) => phase)).toEqual(['solve', 'report', 'report']);
   });
 
   it('carries what the callback throws, and the smoother stays usable', () => {
@@ -287,6 +543,11 @@ describe('refused', () => {
     const mesh = make(tetrahedron());
     expectError(() => new Smoother(mesh, { weights: 'cotan' }), 'InvalidOption', { option: 'weights' });
     expectError(() => new Smoother(mesh, { solver: 'lu' }), 'InvalidOption', { option: 'solver' });
+    expectError(() => new Smoother(mesh, { operator: 'fe' }), 'InvalidOption', { option: 'operator' });
+    expectError(() => new Smoother(mesh, { operator: true }), 'InvalidOption', { option: 'operator' });
+    expectError(() => new Smoother(mesh, { precision: 'half' }), 'InvalidOption', { option: 'precision' });
+    expectError(() => new Smoother(mesh, { precision: 32 }), 'InvalidOption', { option: 'precision' });
+    expectError(() => new Smoother(mesh, { cutoffWavelength: 1 }), 'UnknownOption', { option: 'cutoffWavelength' });
     expectError(() => new Smoother(mesh, { onProgress: 'tell me' }), 'InvalidOption', { option: 'onProgress' });
     expectError(() => new Smoother(mesh, { epsilon: 1 }), 'UnknownOption', { option: 'epsilon' });
     expectError(() => new Smoother(mesh, null), 'InvalidArgument', { argument: 'options' });
@@ -299,13 +560,7 @@ describe('refused', () => {
 
   it('what this version does not build', () => {
     const mesh = make(tetrahedron());
-    const unsupported = [
-      { operator: 'fem' },
-      { precision: 'single' },
-      { bounds: true },
-      { weights: 'intrinsicDelaunay' },
-    ];
-    for (const options of unsupported) {
+    for (const options of [{ bounds: true }, { weights: 'intrinsicDelaunay' }]) {
       expectError(() => new Smoother(mesh, options), 'UnsupportedOption');
       expectError(() => smooth(mesh, f, { epsilon: 1, ...options }), 'UnsupportedOption');
     }

@@ -13,6 +13,7 @@ const PLATEAUS = ['jacksboro_dem.ply', 'disk_flow_surface.vtk'];
 const METRICS = ['identity', 'mass'];
 const RELATIVE_FACTS = 1e-9;
 const RELATIVE_SMOOTHED = 1e-7;
+const RELATIVE_SINGLE = 1e-9;
 
 if (!existsSync(reference)) {
   console.warn(
@@ -67,6 +68,18 @@ describe.runIf(existsSync(reference))('reference data', () => {
       expect([mesh.vertexCount, mesh.triangleCount, mesh.edgeCount]).toEqual([vertices, triangles, edges]);
       expect(mesh.topology).toMatchObject(topology);
       near(mesh.area, area, RELATIVE_FACTS, 'area');
+    });
+
+    it('comes to the same in single precision', () => {
+      const single = new api.Smoother(mesh, { precision: 'single' });
+      const f = normalised(valuesOf(Object.keys(expected.fields)[0]));
+      for (const metric of METRICS) {
+        const { values } = smoother.tikhonov(f, { epsilon: 0.05, metric });
+        const { values: refined, report } = single.tikhonov(f, { epsilon: 0.05, metric });
+        const error = refined.reduce((most, value, i) => Math.max(most, Math.abs(value - values[i])), 0);
+        expect(error, `${metric}, ${report.solver.precision}`).toBeLessThan(RELATIVE_SINGLE);
+      }
+      single.free();
     });
 
     describe.each(Object.entries(expected.fields))('%s', (field, facts) => {

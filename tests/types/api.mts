@@ -122,7 +122,9 @@ mesh.persistence(heat);
 // ---------------------------------------------------------------------------------------------------------- smoothing
 const smoother = new Smoother(mesh, {
   weights: 'uniform',
+  operator: 'paper',
   solver: 'cg',
+  precision: 'double',
   onProgress: ({ phase, fraction }) => console.log(`${phase}: ${Math.round(100 * fraction)} %`),
 });
 const result: api.Smoothed = smoother.tikhonov(heat, {
@@ -135,7 +137,7 @@ const { report, reports } = result;
 same<typeof reports, api.SmoothReport[]>(true);
 const { method, equation, epsilon, constraintCount, before, after, lInfinity, l2, metricNorm } = report;
 const { sobolevBefore, sobolevAfter, preserved, freeExtrema, perturbationFactor, solver } = report;
-const { route, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } = solver;
+const { route, precision, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } = solver;
 same<[typeof before, typeof epsilon, typeof relativeResidual], [api.CriticalCounts, number | null, number]>(true);
 // @ts-expect-error ε has no default
 smoother.tikhonov(heat, {});
@@ -143,8 +145,24 @@ smoother.tikhonov(heat, {});
 smoother.tikhonov(heat);
 // @ts-expect-error one of three
 smoother.tikhonov(heat, { epsilon: 1, metric: 'euclidean' });
+// @ts-expect-error two options for one number
+smoother.tikhonov(heat, { cutoffWavelength: 1, epsilon: 1, metric: 'mass' });
+// @ts-expect-error no such precision
+new Smoother(mesh, { precision: 'half' });
 // @ts-expect-error not built yet
-new Smoother(mesh, { precision: 'single' });
+new Smoother(mesh, { bounds: true });
+same<typeof route, 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none'>(true);
+same<typeof precision, 'double' | 'single' | 'doubleAfterSingle'>(true);
+
+const operator: api.Operator = 'fem';
+const single: api.Precision = 'single';
+const length: api.WavelengthOptions = { cutoffWavelength: 2.5 };
+const byLength: api.Smoothed = new Smoother(mesh, { operator, precision: single }).tikhonov(heat, length);
+new Smoother(mesh, { operator: 'fem' }).tikhonov(heat, { cutoffWavelength: 1, channels: 3 });
+smooth(mesh, heat, { operator: 'fem', cutoffWavelength: 1, precision: 'single' });
+smooth(mesh, heat, { operator: 'fem', epsilon: 1 });
+// @ts-expect-error only finite elements know lengths
+smooth(mesh, heat, { cutoffWavelength: 1 });
 // @ts-expect-error not built yet
 smoother.interpolate(heat, { constraints: [0] });
 
@@ -228,10 +246,11 @@ export const used = [
     freeExtrema,
     perturbationFactor,
     route,
+    precision,
     unknowns,
     factorNonzeros,
     refinementSteps,
     iterations,
   ],
-  ...[short, remade],
+  ...[short, byLength, remade],
 ];
