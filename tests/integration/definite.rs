@@ -157,10 +157,10 @@ fn accepted_pivot<K: Kind>(analysis: &CholeskyAnalysis, matrix: &CscMatrix<f64>)
     Some(pivots.fold(f64::INFINITY, f64::min))
 }
 
-/// The singular matrices that are taken for definite: a description of each, its smallest pivot in roundings of the
-/// diagonal, and its size.
-fn accepted_singular_matrices() -> Vec<(String, f64, usize)> {
-    let mut accepted = Vec::new();
+/// How many singular matrices there are, and those of them that are taken for definite: a description of each, its smallest
+/// pivot in roundings of the diagonal, and its size.
+fn accepted_singular_matrices() -> (usize, Vec<(String, f64, usize)>) {
+    let (mut all, mut accepted) = (0, Vec::new());
     for (name, mesh) in closed_and_open_surfaces() {
         for (weights, laplacian) in [("uniform", uniform_laplacian(&mesh)), ("cotangent", cotan_laplacian(&mesh))] {
             let laplacian = without_empty_rows(&laplacian);
@@ -170,25 +170,28 @@ fn accepted_singular_matrices() -> Vec<(String, f64, usize)> {
                     ("f64", f64::EPSILON, accepted_pivot::<f64>(&analysis, &matrix)),
                     ("f32", f32::EPSILON.into(), accepted_pivot::<f32>(&analysis, &matrix)),
                 ] {
+                    all += 1;
                     let Some(pivot) = pivot else { continue };
                     accepted.push((format!("{name} {weights} {power} {kind}"), pivot / unit, matrix.ncols()));
                 }
             }
         }
     }
-    accepted
+    (all, accepted)
 }
 
 #[test]
 #[ignore = "fails: of the last pivot of a singular matrix rounding leaves more than the threshold that tells it"]
 fn singular_laplacians_and_their_squares_are_refused() {
-    let accepted = accepted_singular_matrices();
+    let (_, accepted) = accepted_singular_matrices();
     assert!(accepted.is_empty(), "{} accepted: {accepted:?}", accepted.len());
 }
 
 #[test]
 fn what_is_left_of_a_singular_pivot_is_rounding() {
-    for (name, roundings, n) in accepted_singular_matrices() {
+    let (all, accepted) = accepted_singular_matrices();
+    assert!(5 * accepted.len() < 2 * all, "{} of {all} accepted", accepted.len());
+    for (name, roundings, n) in accepted {
         assert!(roundings < n as f64 + 16.0, "{name}, {n} unknowns: {roundings} roundings");
     }
 }
@@ -237,7 +240,7 @@ fn errors<K: Kind>(pattern: &SparsityPattern, values: &[K::Wide], steps: usize) 
 /// Checks that a solve is as good as the condition number allows, and a step of refinement the square of that.
 fn check_condition<K: Kind>(name: &str, pattern: &SparsityPattern, values: &[K::Wide], condition: f64, unit: f64) {
     let errors = errors::<K>(pattern, values, 1).unwrap_or_else(|error| panic!("{name}, {}: {error}", K::NAME));
-    let allowed = 30.0 * unit * condition;
+    let allowed = 3.0 * unit * condition;
     let after = (allowed * errors[0]).max(1e-14);
     assert!(errors[0] <= allowed, "{name}, {}: {:e} where {allowed:e} is the condition", K::NAME, errors[0]);
     assert!(errors[1] <= after, "{name}, {}: {errors:?} after refinement", K::NAME);

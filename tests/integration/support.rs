@@ -321,9 +321,9 @@ macro_rules! kinds {
 
 kinds! {
     f64, 1e-12, |re, _im| re;
-    f32, 1e-4, |re, _im| re;
+    f32, 2e-5, |re, _im| re;
     Complex<f64>, 1e-12, |re, im| Complex::new(re, im);
-    Complex<f32>, 1e-4, |re, im| Complex::new(re, im);
+    Complex<f32>, 2e-5, |re, im| Complex::new(re, im);
 }
 
 /// Random numbers in the square around zero.
