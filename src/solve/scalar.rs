@@ -165,7 +165,10 @@ macro_rules! real_scalar {
             fn root(self, diagonal: Self) -> Option<Self> {
                 let size = diagonal.re.abs() + diagonal.im.abs();
                 let lost = (LOST as $real) * $real::EPSILON * size;
-                let modulus = (self.re * self.re + self.im * self.im).sqrt();
+                // Squares of small parts would vanish in single precision.
+                let larger = self.re.abs().max(self.im.abs());
+                let (re, im) = (self.re / larger, self.im / larger);
+                let modulus = larger * (re * re + im * im).sqrt();
                 if !(modulus > lost && modulus < $real::INFINITY && self.re > -$real::EPSILON.sqrt() * size) {
                     return None;
                 }

@@ -74,8 +74,19 @@ impl Div for Double {
     }
 }
 
-/// Solves (LᵀL + εB) x = εBf by elimination without pivoting, which a definite matrix allows.
+/// Solves (LᵀL + εB) x = εBf.
 pub(crate) fn tikhonov(laplacian: &DMatrix<f64>, mass: &DMatrix<f64>, epsilon: f64, f: &[f64]) -> Vec<f64> {
+    weighted_tikhonov(laplacian, &vec![1.0; f.len()], mass, epsilon, f)
+}
+
+/// Solves (LᵀW⁻¹L + εB) x = εBf with the diagonal of W, by elimination without pivoting, which a definite matrix allows.
+pub(crate) fn weighted_tikhonov(
+    laplacian: &DMatrix<f64>,
+    weights: &[f64],
+    mass: &DMatrix<f64>,
+    epsilon: f64,
+    f: &[f64],
+) -> Vec<f64> {
     let n = f.len();
     let zero = Double::from(0.0);
     let e = Double::from(epsilon);
@@ -85,7 +96,7 @@ pub(crate) fn tikhonov(laplacian: &DMatrix<f64>, mass: &DMatrix<f64>, epsilon: f
             for k in 0..n {
                 let (a, b) = (laplacian[(k, i)], laplacian[(k, j)]);
                 if a != 0.0 && b != 0.0 {
-                    rows[i][j] = rows[i][j] + two_product(a, b);
+                    rows[i][j] = rows[i][j] + two_product(a, b) / Double::from(weights[k]);
                 }
             }
             let b = e * Double::from(mass[(i, j)]);

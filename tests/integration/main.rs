@@ -2,10 +2,13 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod cholesky;
 mod critical;
 mod data;
+mod definite;
 mod exact;
 mod extremes;
+mod fem;
 mod io_malformed;
 mod io_read;
 mod io_write;
@@ -16,6 +19,8 @@ mod mesh;
 mod operators;
 mod ordering;
 mod readme;
+mod refusals;
+mod routes;
 mod smooth;
 mod smooth_iterative;
 mod solve;

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
-use nalgebra::DMatrix;
+use morse_smooth::solve::Scalar;
+use nalgebra::{Complex, ComplexField, DMatrix};
+use nalgebra_sparse::pattern::SparsityPattern;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
 pub(crate) fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> TriMesh {
@@ -269,4 +271,79 @@ pub(crate) fn random_spd(seed: u64, n: usize, pairs: usize) -> CscMatrix<f64> {
         })
         .collect();
     dominant(n, &pairs)
+}
+
+/// Entries per column of the factor, in the order of elimination: elimination played on a dense pattern.
+pub(crate) fn column_counts(pattern: &SparsityPattern, order: &[u32]) -> Vec<u64> {
+    let n = order.len();
+    let mut linked = vec![vec![false; n]; n];
+    for (i, j) in pattern.entries() {
+        linked[i][j] = true;
+    }
+    let mut alive = vec![true; n];
+    let mut counts = Vec::new();
+    for &pivot in order {
+        let pivot = pivot as usize;
+        alive[pivot] = false;
+        let next: Vec<usize> = (0..n).filter(|&v| alive[v] && linked[pivot][v]).collect();
+        counts.push(1 + next.len() as u64);
+        for &a in &next {
+            for &b in &next {
+                linked[a][b] = true;
+            }
+        }
+    }
+    counts
+}
+
+/// What a factor can be stored in, with what dense algebra needs.
+pub(crate) trait Kind: Scalar<Wide: ComplexField<RealField = f64>> {
+    const NAME: &'static str;
+    /// What a well-conditioned system is solved to.
+    const ACCURACY: f64;
+
+    /// The number, or its real part where there are no others.
+    fn entry(re: f64, im: f64) -> Self::Wide;
+}
+
+macro_rules! kinds {
+    ($($kind:ty, $accuracy:literal, |$re:ident, $im:ident| $entry:expr;)*) => {
+        $(impl Kind for $kind {
+            const NAME: &'static str = stringify!($kind);
+            const ACCURACY: f64 = $accuracy;
+
+            fn entry($re: f64, $im: f64) -> Self::Wide {
+                $entry
+            }
+        })*
+    };
+}
+
+kinds! {
+    f64, 1e-12, |re, _im| re;
+    f32, 2e-5, |re, _im| re;
+    Complex<f64>, 1e-12, |re, im| Complex::new(re, im);
+    Complex<f32>, 2e-5, |re, im| Complex::new(re, im);
+}
+
+/// Random numbers in the square around zero.
+pub(crate) fn random_column<K: Kind>(n: usize, random: &mut Random) -> Vec<K::Wide> {
+    (0..n).map(|_| K::entry(random.signed(), random.signed())).collect()
+}
+
+/// A x
+pub(crate) fn product_of<K: Kind>(pattern: &SparsityPattern, values: &[K::Wide], x: &[K::Wide]) -> Vec<K::Wide> {
+    let mut y = vec![K::Wide::default(); x.len()];
+    for ((column, row), &value) in pattern.entries().zip(values) {
+        y[row] += value * x[column];
+    }
+    y
+}
+
+/// Largest difference as a fraction of the largest value.
+pub(crate) fn distance<K: Kind>(found: &[K::Wide], expected: &[K::Wide]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let largest = |size: f64, x: f64| if x > size || x.is_nan() { x } else { size };
+    let size = expected.iter().map(|x| x.modulus()).fold(0.0, largest);
+    found.iter().zip(expected).map(|(&a, &b)| (a - b).modulus()).fold(0.0, largest) / size
 }
