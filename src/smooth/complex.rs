@@ -31,6 +31,10 @@ impl ComplexRoute {
         Ok(Self { factors: Factors::new(analysis) })
     }
 
+    pub(super) fn drop_factor(&mut self) {
+        self.factors.drop_factor();
+    }
+
     /// Solves with the factor itself where it is `exact`, else by conjugate gradients.
     pub(super) fn solve(
         &mut self,

@@ -75,6 +75,11 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         })
     }
 
+    /// Gives the memory of the last factor back.
+    pub(super) fn drop_factor(&mut self) {
+        self.last = None;
+    }
+
     pub(super) fn keep(&mut self, key: Key, factor: Factor<D, S>) {
         self.last = Some((key, factor));
     }

@@ -25,6 +25,10 @@ impl RealRoute {
         Ok(Self { gram, factors: Factors::new(analysis) })
     }
 
+    pub(super) fn drop_factor(&mut self) {
+        self.factors.drop_factor();
+    }
+
     pub(super) fn solve(
         &mut self,
         task: &Task<'_>,

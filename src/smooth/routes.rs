@@ -77,7 +77,10 @@ impl Task<'_> {
             (SolverChoice::Cholesky, false) => &[Route::Cholesky],
             (SolverChoice::Auto, true) => &[Route::ComplexCholesky, Route::Iterative],
             (SolverChoice::Auto, false) if !self.problem.symmetric => &[Route::Cholesky, Route::Iterative],
-            (SolverChoice::Auto, false) if large => &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative],
+            // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
+            (SolverChoice::Auto, false) if large || self.precision == Precision::Single => {
+                &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative]
+            }
             (SolverChoice::Auto, false) => &[Route::Cholesky, Route::CgComplexCholesky, Route::Iterative],
         }
     }
@@ -139,9 +142,12 @@ impl Routes {
         precision: Precision,
         progress: Progress<'_>,
     ) -> Result<Answer, SolveError> {
-        // One factor at a time: each can take most of the memory. An error leaves the analysis, which stays valid.
+        // One factor at a time: each can take most of the memory, and where it does, the analysis must go too. An error
+        // leaves the analysis, which stays valid.
+        let large = task.problem.unknowns() >= LARGE;
         if route == Route::Cholesky {
-            self.complex = None;
+            self.complex = self.complex.take().filter(|_| !large);
+            self.complex.iter_mut().for_each(ComplexRoute::drop_factor);
             let real = match &mut self.real {
                 Some(real) => real,
                 none => {
@@ -151,7 +157,8 @@ impl Routes {
             };
             real.solve(task, precision, progress)
         } else {
-            self.real = None;
+            self.real = self.real.take().filter(|_| !large);
+            self.real.iter_mut().for_each(RealRoute::drop_factor);
             let complex = match &mut self.complex {
                 Some(complex) => complex,
                 none => {

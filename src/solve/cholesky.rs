@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::multifrontal::{Workspace, reserve, storage};
+use super::matrix::ADDRESS_SPACE;
+use super::multifrontal::{Workspace, reserve, reserve_fronts, storage};
 use super::ordering::{Permutation, nested_dissection};
 use super::scalar::Scalar;
 use super::symbolic::{FactorSize, Symbolic};
@@ -89,15 +90,24 @@ impl CholeskyAnalysis {
     /// bytes, before anything is computed.
     pub fn factor<T: Scalar>(&self, values: &[T::Wide]) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
-        let (units, stack) = storage::<T::Unit>(&self.shared.symbolic);
-        let out_of_memory = |_| SolveError::OutOfMemory { bytes: self.memory::<T>() };
-        let entries = reserve(units).map_err(out_of_memory)?;
-        let workspace = Workspace::new(&self.shared.symbolic, stack).map_err(out_of_memory)?;
-        // Vectors that will be needed beside the factor must find room too.
-        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).map_err(out_of_memory)?);
-        let mut factor = CholeskyFactor { analysis: self.clone(), entries, workspace, scale: 1.0, lost: None };
+        let mut factor = self.allocate::<T>().ok_or_else(|| SolveError::OutOfMemory { bytes: self.memory::<T>() })?;
         factor.compute(values)?;
         Ok(factor)
+    }
+
+    /// Room for a factor and its computation, if it can be had.
+    fn allocate<T: Scalar>(&self) -> Option<CholeskyFactor<T>> {
+        let symbolic = &self.shared.symbolic;
+        // What cannot fit must not be tried: WebAssembly never gives memory back.
+        if self.memory::<T>() > ADDRESS_SPACE {
+            return None;
+        }
+        // The largest block first.
+        let workspace = Workspace::new(symbolic, storage::<T::Unit>(symbolic).1).ok()?;
+        let fronts = reserve_fronts(symbolic).ok()?;
+        // Vectors that will be needed beside the factor must find room too.
+        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).ok()?);
+        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, lost: None })
     }
 
     fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
@@ -119,7 +129,8 @@ const HEADROOM: u64 = 256;
 #[derive(Debug, Clone)]
 pub struct CholeskyFactor<T: Scalar> {
     analysis: CholeskyAnalysis,
-    entries: Vec<T::Unit>,
+    /// Every front's part of the factor.
+    fronts: Vec<Vec<T::Unit>>,
     workspace: Workspace<T::Unit>,
     /// The matrix was multiplied by this, to be within the range of single precision.
     scale: f64,
@@ -141,7 +152,7 @@ impl<T: Scalar> CholeskyFactor<T> {
     fn compute(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
         let Analysis { pattern, symbolic } = &*self.analysis.shared;
         [self.scale, _] = scales::<T>(values);
-        let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.entries);
+        let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.fronts);
         self.lost = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
         self.lost.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
     }
@@ -181,7 +192,7 @@ impl<T: Scalar> CholeskyFactor<T> {
         let new_to_old = symbolic.permutation.new_to_old();
         let [shrink, grow] = scales::<T>(b);
         let mut permuted: Vec<T> = new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
-        solve_one(symbolic, &self.entries, &mut permuted);
+        solve_one(symbolic, &self.fronts, &mut permuted);
         for (value, &old) in permuted.iter().zip(new_to_old) {
             x[old as usize] = T::times(value.wide(), grow * self.scale);
         }
@@ -198,7 +209,7 @@ impl<T: Scalar> CholeskyFactor<T> {
                 unit.set_lane(lane, T::narrow(T::times(b[old as usize], shrink)));
             }
         }
-        solve_block(symbolic, &self.entries, &mut permuted);
+        solve_block(symbolic, &self.fronts, &mut permuted);
         for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
             let [_, grow] = scales::<T>(b);
             for (unit, &old) in permuted.iter().zip(new_to_old) {

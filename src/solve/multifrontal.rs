@@ -56,6 +56,13 @@ pub(super) fn reserve<T>(units: u64) -> Result<Vec<T>, SolveError> {
     }
 }
 
+/// Room for every front's part of the factor. One allocation each: they find room among what earlier work left behind,
+/// where the whole factor would not.
+pub(super) fn reserve_fronts<U: Unit>(symbolic: &Symbolic) -> Result<Vec<Vec<U>>, SolveError> {
+    let size = |s| sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
+    (0..symbolic.fronts()).map(|s| reserve(size(s) as u64)).collect()
+}
+
 impl<U: Unit> Workspace<U> {
     pub(super) fn new(symbolic: &Symbolic, stack: u64) -> Result<Self, SolveError> {
         let mut workspace = Self {
@@ -68,27 +75,25 @@ impl<U: Unit> Workspace<U> {
         Ok(workspace)
     }
 
-    /// Computes the factor of the matrix with these values, times `scale`, into `factor`, which has the capacity for it. The error is the
-    /// place of a column whose pivot was lost.
+    /// Computes the factor of the matrix with these values, times `scale`, into `factor`, a vector with the capacity for it
+    /// for every front. The error is the place of a column whose pivot was lost.
     pub(super) fn factorize(
         &mut self,
         symbolic: &Symbolic,
         pattern: &SparsityPattern,
         values: &[<U::Element as Scalar>::Wide],
         scale: f64,
-        factor: &mut Vec<U>,
+        factor: &mut [Vec<U>],
     ) -> Result<(), usize> {
-        factor.clear();
         // Fronts whose updates wait at either end, and where the free part of the stack begins and ends.
         let mut waiting: [Vec<u32>; 2] = [Vec::new(), Vec::new()];
         let mut free = [0, self.stack.len()];
-        for s in 0..symbolic.fronts() {
+        for (s, factor) in factor.iter_mut().enumerate() {
             let columns = symbolic.columns(s);
             let rows = symbolic.rows_of(s);
             let (factor_size, update_size) = sizes::<U>(columns.len(), rows.len());
-            let factor_start = factor.len();
             // Only now, so that the zeros are still in the cache when the front is assembled.
-            grow(factor, factor_size);
+            set_zero(factor, factor_size);
             for (place, column) in columns.clone().enumerate() {
                 self.places[column] = place as u32;
             }
@@ -98,7 +103,7 @@ impl<U: Unit> Workspace<U> {
             let odd = symbolic.odd[s];
             let (update, children) = split_stack(&mut self.stack, free, update_size, odd);
             clear(update);
-            let mut front = Front { columns: columns.len(), factor: &mut factor[factor_start..], update };
+            let mut front = Front { columns: columns.len(), factor, update };
             self.diagonal.clear();
             for column in columns.clone() {
                 let entry = assemble_column(&mut front, symbolic, pattern, (values, scale), column, &self.places);
@@ -139,8 +144,9 @@ impl<U: Unit> Workspace<U> {
 // function that is called once and runs long.
 
 #[inline(never)]
-fn grow<U: Unit>(factor: &mut Vec<U>, size: usize) {
-    factor.resize(factor.len() + size, U::ZERO);
+fn set_zero<U: Unit>(factor: &mut Vec<U>, size: usize) {
+    factor.clear();
+    factor.resize(size, U::ZERO);
 }
 
 #[inline(never)]

@@ -17,36 +17,22 @@ struct Part<'a, U: Unit> {
     rows: &'a [u32],
 }
 
-/// The part of front `s` that begins at unit `start`, and the unit at which the next one begins.
 #[inline(never)]
-fn part<'a, U: Unit>(symbolic: &'a Symbolic, factor: &'a [U], s: usize, start: usize) -> (Part<'a, U>, usize) {
+fn part<'a, U: Unit>(symbolic: &'a Symbolic, factor: &'a [Vec<U>], s: usize) -> Part<'a, U> {
     let (columns, rows) = (symbolic.columns(s), symbolic.rows_of(s));
-    let middle = start + triangle::<U>(columns.len().div_ceil(U::LANES));
-    let end = middle + rows.len().div_ceil(U::LANES) * columns.len();
-    (Part { pivots: &factor[start..middle], below: &factor[middle..end], columns, rows }, end)
-}
-
-/// The units at which the fronts begin.
-fn starts<U: Unit>(symbolic: &Symbolic, factor: &[U]) -> Vec<usize> {
-    let mut next = 0;
-    let mut begin = |s| {
-        let start = next;
-        next = part(symbolic, factor, s, start).1;
-        start
-    };
-    (0..symbolic.fronts()).map(&mut begin).collect()
+    let (pivots, below) = factor[s].split_at(triangle::<U>(columns.len().div_ceil(U::LANES)));
+    Part { pivots, below, columns, rows }
 }
 
 /// Overwrites a right-hand side, in the order of elimination, with the solution.
 #[inline(never)]
-pub(super) fn solve_one<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U::Element]) {
-    let starts = starts(symbolic, factor);
-    for (s, &start) in starts.iter().enumerate() {
-        forward(&part(symbolic, factor, s, start).0, x);
+pub(super) fn solve_one<U: Unit>(symbolic: &Symbolic, factor: &[Vec<U>], x: &mut [U::Element]) {
+    for s in 0..factor.len() {
+        forward(&part(symbolic, factor, s), x);
     }
     let mut sums = Vec::new();
-    for (s, &start) in starts.iter().enumerate().rev() {
-        backward(&part(symbolic, factor, s, start).0, x, &mut sums);
+    for s in (0..factor.len()).rev() {
+        backward(&part(symbolic, factor, s), x, &mut sums);
     }
 }
 
@@ -124,11 +110,10 @@ fn add_products<U: Unit>(sums: &mut [U], row: &[U], values: &U) {
 
 /// Overwrites as many right-hand sides as a unit has lanes, a unit for each unknown, with their solutions.
 #[inline(never)]
-pub(super) fn solve_block<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U]) {
-    let starts = starts(symbolic, factor);
+pub(super) fn solve_block<U: Unit>(symbolic: &Symbolic, factor: &[Vec<U>], x: &mut [U]) {
     let mut gathered: Vec<U> = vec![U::ZERO; U::LANES];
-    for (s, &start) in starts.iter().enumerate() {
-        let part = part(symbolic, factor, s, start).0;
+    for s in 0..factor.len() {
+        let part = part(symbolic, factor, s);
         let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
         for tile in (0..own.len()).step_by(U::LANES) {
             let row = &part.pivots[triangle::<U>(tile / U::LANES)..];
@@ -147,8 +132,8 @@ pub(super) fn solve_block<U: Unit>(symbolic: &Symbolic, factor: &[U], x: &mut [U
             }
         }
     }
-    for (s, &start) in starts.iter().enumerate().rev() {
-        let part = part(symbolic, factor, s, start).0;
+    for s in (0..factor.len()).rev() {
+        let part = part(symbolic, factor, s);
         let (own, later) = x[part.columns.start..].split_at_mut(part.columns.len());
         for (row, ids) in part.below.chunks_exact(own.len()).zip(part.rows.chunks(U::LANES)) {
             // The rows that fill the last tile up are zero, whatever has been gathered for them before.
