@@ -35,6 +35,21 @@ const fn depth<U>() -> usize {
 /// Rows whose tiles stay in the second-level cache while all tiles below pass by.
 const BREADTH: usize = 128;
 
+/// The diagonal entries as they were before any elimination, which tell lost pivots.
+pub(super) struct Diagonal<'a, U: Unit> {
+    pub(super) entries: &'a [U::Element],
+    /// A pivot of this fraction of its entry is lost.
+    pub(super) lost: f64,
+}
+
+impl<U: Unit> Clone for Diagonal<'_, U> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<U: Unit> Copy for Diagonal<'_, U> {}
+
 /// One front.
 pub(super) struct Front<'a, U: Unit> {
     pub(super) columns: usize,
@@ -44,9 +59,8 @@ pub(super) struct Front<'a, U: Unit> {
 }
 
 impl<U: Unit> Front<'_, U> {
-    /// Eliminates the columns and brings the update up to date. The diagonal entries as they were before any elimination
-    /// tell lost pivots; the first column with a lost one is the error.
-    pub(super) fn eliminate(&mut self, diagonal: &[U::Element]) -> Result<(), usize> {
+    /// Eliminates the columns and brings the update up to date. The first column with a lost pivot is the error.
+    pub(super) fn eliminate(&mut self, diagonal: Diagonal<'_, U>) -> Result<(), usize> {
         let columns = self.columns;
         let (pivots, below) = self.factor.split_at_mut(triangle::<U>(columns.div_ceil(U::LANES)));
         for start in (0..columns).step_by(PANEL) {
@@ -93,7 +107,7 @@ fn eliminate_panel<U: Unit>(
     columns: usize,
     start: usize,
     end: usize,
-    diagonal: &[U::Element],
+    diagonal: Diagonal<'_, U>,
 ) -> Result<(), usize> {
     for i in start / U::LANES..columns.div_ceil(U::LANES) {
         let (above, row) = pivots.split_at_mut(triangle::<U>(i));
@@ -104,7 +118,8 @@ fn eliminate_panel<U: Unit>(
             let tile = &mut open[..U::LANES];
             U::update(tile, &done[start..], &done[start..]);
             let last = columns.min(own + U::LANES);
-            eliminate_tile(tile, &diagonal[own..last]).map_err(|column| own + column)?;
+            eliminate_tile(tile, Diagonal { entries: &diagonal.entries[own..last], ..diagonal })
+                .map_err(|column| own + column)?;
         }
     }
     Ok(())
@@ -134,9 +149,9 @@ fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
 
 /// The Cholesky factor of a diagonal tile, whose upper part comes out zero; as many columns as there are diagonal entries.
 #[inline(never)]
-fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: &[U::Element]) -> Result<(), usize> {
-    for c in 0..diagonal.len() {
-        let root = tile[c].lane(c).root(diagonal[c]).ok_or(c)?;
+fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: Diagonal<'_, U>) -> Result<(), usize> {
+    for c in 0..diagonal.entries.len() {
+        let root = tile[c].lane(c).root(diagonal.entries[c], diagonal.lost).ok_or(c)?;
         let reciprocal = root.reciprocal();
         let mut column = U::ZERO;
         for lane in c + 1..U::LANES {

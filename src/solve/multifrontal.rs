@@ -3,7 +3,7 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::front::{Front, sizes, triangle};
+use super::front::{Diagonal, Front, sizes, triangle};
 use super::scalar::Scalar;
 use super::symbolic::Symbolic;
 use super::unit::Unit;
@@ -32,6 +32,12 @@ fn sides<T>(both: &mut [T; 2], odd: bool) -> [&mut T; 2] {
     let [even_side, odd_side] = both;
     if odd { [odd_side, even_side] } else { [even_side, odd_side] }
 }
+
+/// Of the last pivot of a singular matrix of n unknowns, rounding leaves less than this many times √n roundings of the
+/// diagonal entry: a third of it was the most in the Laplacians, and squared Laplacians, of all kinds of meshes.
+const LOST: f64 = 256.0;
+/// Pivots of Laplacians are larger than this fraction of their entries, however large the mesh.
+const MOST_LOST: f64 = 1e-2;
 
 /// What a factorisation needs besides the factor, kept for the next one.
 #[derive(Debug, Clone)]
@@ -85,6 +91,7 @@ impl<U: Unit> Workspace<U> {
         scale: f64,
         factor: &mut [Vec<U>],
     ) -> Result<(), usize> {
+        let lost = (LOST * U::Element::EPSILON * (self.places.len() as f64).sqrt()).min(MOST_LOST);
         // Fronts whose updates wait at either end, and where the free part of the stack begins and ends.
         let mut waiting: [Vec<u32>; 2] = [Vec::new(), Vec::new()];
         let mut free = [0, self.stack.len()];
@@ -126,7 +133,8 @@ impl<U: Unit> Workspace<U> {
                 add_child(&mut front, child, &self.child_places);
                 released += size;
             }
-            front.eliminate(&self.diagonal).map_err(|column| columns.start + column)?;
+            let diagonal = Diagonal { entries: &self.diagonal, lost };
+            front.eliminate(diagonal).map_err(|column| columns.start + column)?;
             own.push(s as u32);
             if odd {
                 free[0] -= released;

@@ -17,6 +17,8 @@ pub trait Scalar: Copy + Debug + Send + Sync + sealed::Sealed + 'static {
     const ZERO: Self;
     /// Whether the precision, and with it the range, is single.
     const SINGLE: bool;
+    /// The distance from 1 to the next number.
+    const EPSILON: f64;
 
     /// Rounds.
     fn narrow(wide: Self::Wide) -> Self;
@@ -35,8 +37,8 @@ pub trait Scalar: Copy + Debug + Send + Sync + sealed::Sealed + 'static {
     /// The product.
     fn by(self, other: Self) -> Self;
     /// The root of a pivot, unless the pivot is lost: not finite, not in the half plane where a definite matrix has its
-    /// pivots, or so small beside the `diagonal` entry that it came from that only rounding is left of it.
-    fn root(self, diagonal: Self) -> Option<Self>;
+    /// pivots, or at most the fraction `lost` of the `diagonal` entry that it came from.
+    fn root(self, diagonal: Self, lost: f64) -> Option<Self>;
     /// 1/self.
     fn reciprocal(self) -> Self;
 }
@@ -49,10 +51,6 @@ mod sealed {
     impl Sealed for nalgebra::Complex<f32> {}
 }
 
-/// A pivot below this many roundings of its diagonal entry is taken for zero. A singular Laplacian leaves a pivot of a few
-/// roundings, of either sign.
-const LOST: f64 = 16.0;
-
 macro_rules! real_scalar {
     ($real:ident, $lanes:literal) => {
         impl Scalar for $real {
@@ -60,6 +58,7 @@ macro_rules! real_scalar {
             type Unit = [$real; $lanes];
             const ZERO: Self = 0.0;
             const SINGLE: bool = size_of::<$real>() == 4;
+            const EPSILON: f64 = $real::EPSILON as f64;
 
             #[inline]
             fn narrow(wide: f64) -> Self {
@@ -102,8 +101,8 @@ macro_rules! real_scalar {
             }
 
             #[inline]
-            fn root(self, diagonal: Self) -> Option<Self> {
-                let least = (LOST as $real) * $real::EPSILON * diagonal.abs();
+            fn root(self, diagonal: Self, lost: f64) -> Option<Self> {
+                let least = lost as $real * diagonal.abs();
                 (self > least && self < $real::INFINITY).then(|| self.sqrt())
             }
 
@@ -118,6 +117,7 @@ macro_rules! real_scalar {
             type Unit = Planar<[$real; $lanes]>;
             const ZERO: Self = Complex::new(0.0, 0.0);
             const SINGLE: bool = size_of::<$real>() == 4;
+            const EPSILON: f64 = $real::EPSILON as f64;
 
             #[inline]
             fn narrow(wide: Complex<f64>) -> Self {
@@ -162,9 +162,9 @@ macro_rules! real_scalar {
             /// Elimination keeps the real part of a matrix positive semi-definite if it was so, and then roots lie in the
             /// right half plane.
             #[inline]
-            fn root(self, diagonal: Self) -> Option<Self> {
+            fn root(self, diagonal: Self, lost: f64) -> Option<Self> {
                 let size = diagonal.re.abs() + diagonal.im.abs();
-                let lost = (LOST as $real) * $real::EPSILON * size;
+                let lost = lost as $real * size;
                 // Squares of small parts would vanish in single precision.
                 let larger = self.re.abs().max(self.im.abs());
                 let (re, im) = (self.re / larger, self.im / larger);
