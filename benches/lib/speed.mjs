@@ -44,7 +44,8 @@ function ours(time, facts, system, instance, isReal) {
     ['ours', 64],
     ['ours-single', 32],
   ]) {
-    time(`${name}/factor`, () => instance.ours_factor(bits));
+    // Single precision cannot tell some matrices from singular ones.
+    if (!time(`${name}/factor`, () => instance.ours_factor(bits))) continue;
     time(`${name}/solve1`, () => instance.ours_solve(1));
     time(`${name}/solve8`, () => instance.ours_solve(8));
     time(`${name}/refactor`, () => instance.ours_refactor());
