@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use nalgebra::Complex;
 
-use super::unit::{Planar, Unit};
+use super::unit::{Plain, Planar, Unit};
 
 /// What a factor can be stored in: `f64`, `f32`, and complex numbers of both. Values go in and out in double precision.
 pub trait Scalar: Copy + Debug + Send + Sync + sealed::Sealed + 'static {
@@ -55,7 +55,7 @@ macro_rules! real_scalar {
     ($real:ident, $lanes:literal) => {
         impl Scalar for $real {
             type Wide = f64;
-            type Unit = [$real; $lanes];
+            type Unit = Plain<[$real; $lanes]>;
             const ZERO: Self = 0.0;
             const SINGLE: bool = size_of::<$real>() == 4;
             const EPSILON: f64 = $real::EPSILON as f64;

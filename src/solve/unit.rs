@@ -50,53 +50,65 @@ pub trait Unit: Copy + Debug + Send + Sync + 'static {
     fn update(result: &mut [Self], a: &[Self], b: &[Self]);
 }
 
+/// Real numbers. Aligned, because registers that are read across the borders of cache lines cost a quarter of the speed.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub struct Plain<Numbers>(Numbers);
+
 /// Real parts, then imaginary parts.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
 pub struct Planar<Parts> {
     re: Parts,
     im: Parts,
 }
 
+macro_rules! without_traces {
+    ($real:ident, $registers:ident, $numbers:expr) => {
+        if <$real>::SINGLE { $registers::load(&$numbers).without_traces(TRACE as $real).store() } else { $numbers }
+    };
+}
+
 macro_rules! units {
     ($real:ident, $lanes:literal, $registers:ident) => {
-        impl Unit for [$real; $lanes] {
+        impl Unit for Plain<[$real; $lanes]> {
             type Element = $real;
             const LANES: usize = $lanes;
-            const ZERO: Self = [0.0; $lanes];
+            const ZERO: Self = Plain([0.0; $lanes]);
 
             #[inline(always)]
             fn lane(&self, lane: usize) -> $real {
-                self[lane % $lanes]
+                self.0[lane % $lanes]
             }
 
             #[inline(always)]
             fn set_lane(&mut self, lane: usize, value: $real) {
-                self[lane % $lanes] = value;
+                self.0[lane % $lanes] = value;
             }
 
             #[inline(always)]
             fn plus(&self, other: &Self) -> Self {
-                $registers::load(self).plus($registers::load(other)).store()
+                Plain($registers::load(&self.0).plus($registers::load(&other.0)).store())
             }
 
             #[inline(always)]
             fn minus_scaled(&self, a: &Self, factor: $real) -> Self {
-                $registers::load(self).minus_scaled($registers::load(a), factor).store()
+                Plain($registers::load(&self.0).minus_scaled($registers::load(&a.0), factor).store())
             }
 
             #[inline(always)]
             fn plus_product(&self, a: &Self, b: &Self) -> Self {
-                $registers::load(self).plus_product($registers::load(a), $registers::load(b)).store()
+                Plain($registers::load(&self.0).plus_product($registers::load(&a.0), $registers::load(&b.0)).store())
             }
 
             #[inline(always)]
             fn without_traces(self) -> Self {
-                if <$real>::SINGLE { $registers::load(&self).without_traces(TRACE as $real).store() } else { self }
+                Plain(without_traces!($real, $registers, self.0))
             }
 
             #[inline(always)]
             fn sum(&self) -> $real {
-                self.iter().sum()
+                self.0.iter().sum()
             }
 
             #[inline(never)]
@@ -104,10 +116,16 @@ macro_rules! units {
                 let (blocks, rest) = result.as_chunks_mut::<4>();
                 let mut lane = 0;
                 for [r0, r1, r2, r3] in blocks {
-                    let sums = [$registers::load(r0), $registers::load(r1), $registers::load(r2), $registers::load(r3)];
-                    let sums = sum_products::<false, _, _>(sums, a.iter().zip(b), |a| a, |b, j| b[(lane + j) % $lanes]);
+                    let sums = [
+                        $registers::load(&r0.0),
+                        $registers::load(&r1.0),
+                        $registers::load(&r2.0),
+                        $registers::load(&r3.0),
+                    ];
+                    let sums =
+                        sum_products::<false, _, _>(sums, a.iter().zip(b), |a| &a.0, |b, j| b.0[(lane + j) % $lanes]);
                     let [s0, s1, s2, s3] = sums;
-                    (*r0, *r1, *r2, *r3) = (s0.store(), s1.store(), s2.store(), s3.store());
+                    (r0.0, r1.0, r2.0, r3.0) = (s0.store(), s1.store(), s2.store(), s3.store());
                     lane += 4;
                 }
                 update_each(rest, a, b, lane);
@@ -132,7 +150,9 @@ macro_rules! units {
 
             #[inline(always)]
             fn plus(&self, other: &Self) -> Self {
-                Planar { re: self.re.plus(&other.re), im: self.im.plus(&other.im) }
+                let real = $registers::load(&self.re).plus($registers::load(&other.re));
+                let imaginary = $registers::load(&self.im).plus($registers::load(&other.im));
+                Planar { re: real.store(), im: imaginary.store() }
             }
 
             #[inline(always)]
@@ -154,7 +174,10 @@ macro_rules! units {
 
             #[inline(always)]
             fn without_traces(self) -> Self {
-                Planar { re: self.re.without_traces(), im: self.im.without_traces() }
+                Planar {
+                    re: without_traces!($real, $registers, self.re),
+                    im: without_traces!($real, $registers, self.im),
+                }
             }
 
             #[inline(always)]
