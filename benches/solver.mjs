@@ -23,13 +23,13 @@ const MEMORY_CASES = [
 
 await main(async () => {
   const options = readOptions(process.argv.slice(2));
-  const wasm = await step('building the solver and its peers for WebAssembly (minutes from scratch)', buildPeers);
+  const { wasm, simd } = await step('building the solver and its peers for WebAssembly (minutes from scratch)', buildPeers);
   const cholmod = await buildCholmod(join(targetFolder, 'cholmod'));
   if (cholmod) say(`native CHOLMOD with METIS and ${cholmod.blas}, one thread`);
   else say('CHOLMOD is skipped: it wants cc and its headers (Debian: libsuitesparse-dev libopenblas-dev)');
   const folder = mkdtempSync(join(tmpdir(), 'morse-smooth-bench-'));
   try {
-    const common = { wasm, cholmod: cholmod?.program, folder, clock: options.clock };
+    const common = { wasm, simd, cholmod: cholmod?.program, folder, clock: options.clock };
     const measured = {};
     if (options.parts.includes('speed')) measured.speed = await speed(options, common);
     if (options.parts.includes('calls')) measured.calls = await calls(options, common);

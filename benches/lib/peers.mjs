@@ -14,15 +14,19 @@ const IDS = ['triangles', 'offsets', 'rows'];
 /** Where the builds of the benches go; kept from run to run. */
 export const targetFolder = join(process.env.CARGO_TARGET_DIR || inRoot('target'), 'peers');
 
-/** Returns the path of the module. */
+/** Returns the paths of two modules: with faer as it comes, and with SIMD in the products of its matrices. */
 export async function buildPeers() {
+  return { wasm: await buildOne('plain', []), simd: await buildOne('simd', ['--features', 'faer-simd']) };
+}
+
+async function buildOne(name, features) {
   const target = 'wasm32-unknown-unknown';
   const manifest = inRoot('benches', 'peers', 'Cargo.toml');
   const parameters = ['build', '--release', '--locked', '--manifest-path', manifest, '--target', target];
-  parameters.push('--target-dir', targetFolder);
+  parameters.push('--target-dir', join(targetFolder, name), ...features);
   const env = { RUSTFLAGS: '-C target-feature=+simd128' };
   await must('cargo', parameters, 'benches/peers does not build.', { env });
-  return join(targetFolder, target, 'release', 'solver_peers.wasm');
+  return join(targetFolder, name, target, 'release', 'solver_peers.wasm');
 }
 
 /** A fresh instance with a mesh of about `size` vertices: the module's functions, and what turns names into its numbers. */

@@ -7,7 +7,7 @@ import { instantiate } from './peers.mjs';
 /** Shifts of the complex system with which refinement of single precision is timed. */
 export const SHIFTS = [1, 1e-4];
 
-export async function run({ wasm, mesh, size, systems, rounds, clock, withCsc, cholmod, folder }) {
+export async function run({ wasm, simd, mesh, size, systems, rounds, clock, withCsc, cholmod, folder }) {
   const watch = new Stopwatch(clock);
   const facts = {};
   const cases = [];
@@ -18,14 +18,20 @@ export async function run({ wasm, mesh, size, systems, rounds, clock, withCsc, c
     const isReal = system !== 'C';
     const file = cholmod && isReal ? join(folder, `${mesh}-${size}-${system}.bin`) : null;
     if (file) writeSystem(file, instance.matrix());
-    cases.push({ system, instance, isReal, file });
+    // The same solver of ours in another module, for the ordering; only its faer is measured.
+    const other = isReal ? await instantiate(simd, mesh, size) : null;
+    other?.system(system);
+    other?.ours_order();
+    cases.push({ system, instance, other, isReal, file });
   }
   for (let round = 0; round < rounds; round++) {
-    for (const { system, instance, isReal, file } of cases) {
+    for (const { system, instance, other, isReal, file } of cases) {
       const time = (what, work) => watch.time(`${system}/${what}`, work);
       ours(time, facts, system, instance, isReal);
       if (isReal) {
         faer(time, facts, system, instance, 'faer', 0);
+        faer(time, facts, system, other, 'faer-simd', 0);
+        other.forget_peers();
         // It is slow and only completes the picture.
         if (round === 0) faer(time, facts, system, instance, 'faer-amd', 1);
         if (round === 0 && withCsc) csc(time, facts, system, instance);

@@ -17,6 +17,7 @@ const SOLVERS = {
   ours: 'morse-smooth',
   'ours-single': 'morse-smooth, single precision',
   faer: 'faer, same order',
+  'faer-simd': 'faer with SIMD asked for, same order',
   'faer-amd': 'faer, its own AMD',
   csc: 'nalgebra-sparse, same order',
   cholmod: 'CHOLMOD with METIS, native',
