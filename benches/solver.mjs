@@ -23,7 +23,10 @@ const MEMORY_CASES = [
 
 await main(async () => {
   const options = readOptions(process.argv.slice(2));
-  const { wasm, simd } = await step('building the solver and its peers for WebAssembly (minutes from scratch)', buildPeers);
+  const { wasm, simd } = await step(
+    'building the solver and its peers for WebAssembly (minutes from scratch)',
+    buildPeers,
+  );
   const cholmod = await buildCholmod(join(targetFolder, 'cholmod'));
   if (cholmod) say(`native CHOLMOD with METIS and ${cholmod.blas}, one thread`);
   else say('CHOLMOD is skipped: it wants cc and its headers (Debian: libsuitesparse-dev libopenblas-dev)');

@@ -23,7 +23,7 @@ use crate::operators::MassScale;
 const LARGE: usize = 400_000;
 /// Relative errors that refinement stops at: far below every use of the result, and above what a step could still mend.
 const DOUBLE: f64 = 1e-16;
-const SINGLE: f64 = 2e-11;
+const SINGLE: f64 = 1e-13;
 
 /// What a factor belongs to: ε and the mass matrix.
 pub(super) type Key = (f64, Metric, MassScale);
@@ -59,6 +59,8 @@ enum Route {
 pub(super) struct Routes {
     real: Option<RealRoute>,
     complex: Option<ComplexRoute>,
+    /// What solved the last system, and whether it did so after single precision had failed.
+    last: Option<(Key, Route, &'static str)>,
 }
 
 impl Task<'_> {
@@ -99,6 +101,16 @@ impl Routes {
             let iterates = vec![Iterate::default(); task.fields.len()];
             return Ok(Answer { iterates, route: "none", precision: "double", factor_nonzeros: 0 });
         }
+        // The same system again, with its factor at hand: what failed the last time would fail again.
+        if let Some((key, route, precision)) = self.last.take().filter(|(key, ..)| *key == task.key) {
+            let tried = if precision == "single" { Precision::Single } else { Precision::Double };
+            if route != Route::Iterative
+                && let Ok(answer) = self.factored(route, task, tried, progress)
+            {
+                self.last = Some((key, route, precision));
+                return Ok(Answer { precision, ..answer });
+            }
+        }
         let mut first_failure = None;
         for &route in task.candidates() {
             // Iterations hardly go where a factor did not; they only need less memory.
@@ -110,7 +122,10 @@ impl Routes {
                 Err(failure) => {
                     first_failure.get_or_insert(failure);
                 }
-                answer => return answer,
+                Ok(answer) => {
+                    self.last = Some((task.key, route, answer.precision));
+                    return Ok(answer);
+                }
             }
         }
         Err(first_failure.unwrap_or(SolveError::PatternMismatch {}))
@@ -126,7 +141,11 @@ impl Routes {
             match self.factored(route, task, Precision::Single, progress) {
                 Ok(answer) => return Ok(answer),
                 // Single precision was not enough for this matrix.
-                Err(SolveError::NotPositiveDefinite { .. } | SolveError::NotConverged { .. }) => {}
+                Err(
+                    SolveError::NotPositiveDefinite { .. }
+                    | SolveError::NotConverged { .. }
+                    | SolveError::NonFiniteEntry { .. },
+                ) => {}
                 Err(other) => return Err(other),
             }
             let answer = self.factored(route, task, Precision::Double, progress)?;

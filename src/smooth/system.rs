@@ -3,7 +3,7 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::routes::{Routes, Task};
-use super::tikhonov::{Metric, TikhonovOptions};
+use super::tikhonov::{Channel, Metric, TikhonovOptions};
 use super::{Operator, Progress, SmootherOptions};
 use crate::error::{Error, Result, SolveError};
 use crate::mesh::{LinkKind, TriMesh};
@@ -96,7 +96,7 @@ impl TikhonovSystem {
     pub(super) fn solve(
         &mut self,
         mesh: &TriMesh,
-        fields: &[Vec<f64>],
+        channels: &[Channel],
         options: &TikhonovOptions,
         smoother: &SmootherOptions,
         progress: Progress<'_>,
@@ -104,7 +104,7 @@ impl TikhonovSystem {
         self.prepare_mass(mesh, options, smoother.operator)?;
         let Some((metric, mass_scale, mass)) = &self.mass else { return Err(SolveError::PatternMismatch {}.into()) };
         let fields: Vec<Vec<f64>> =
-            fields.iter().map(|f| self.active.iter().map(|&v| f[v as usize]).collect()).collect();
+            channels.iter().map(|c| self.active.iter().map(|&v| c.normalized[v as usize]).collect()).collect();
         let scale = options.epsilon.max(1.0);
         let problem = Problem {
             laplacian: &self.laplacian,

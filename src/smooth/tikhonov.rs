@@ -76,34 +76,42 @@ pub(super) fn run(
             }
         }
     }
-    let channels = split_channels(smoother, values, options.channels)?;
-    let mut system = match smoother.tikhonov.take() {
-        Some(system) => system,
-        None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian, smoother.options.operator)?,
-    };
-    let fields: Vec<Vec<f64>> = channels.iter().map(|channel| channel.normalized.clone()).collect();
-    let solved = system.solve(&smoother.mesh, &fields, options, &smoother.options, progress);
-    // Kept after an error too: the analysis stays valid.
-    smoother.tikhonov = Some(system);
-    let solved = solved?;
-    progress(Phase::Report, 0.95);
+    let ranges = ranges(smoother, values, options.channels)?;
     let mut interleaved = values.to_vec();
-    let mut reports = Vec::with_capacity(channels.len());
-    for (c, (channel, solution)) in channels.iter().zip(&solved.solutions).enumerate() {
-        let smoothed: Vec<f64> = solution
-            .values
-            .iter()
-            .zip(&channel.values)
-            .map(|(x, &original)| x.map_or(original, |x| channel.range.min + channel.range.length() * x))
+    let mut reports = Vec::with_capacity(options.channels);
+    // A few at a time: any number of channels takes the memory of so many.
+    for first in (0..options.channels).step_by(TOGETHER) {
+        let channels: Vec<Channel> = (first..options.channels.min(first + TOGETHER))
+            .map(|c| Channel::new(smoother, column(values, c, options.channels), ranges[c]))
             .collect();
-        for (vertex, &value) in smoothed.iter().enumerate() {
-            interleaved[vertex * options.channels + c] = value;
+        let mut system = match smoother.tikhonov.take() {
+            Some(system) => system,
+            None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian, smoother.options.operator)?,
+        };
+        let solved = system.solve(&smoother.mesh, &channels, options, &smoother.options, progress);
+        // Kept after an error too: the analysis stays valid.
+        smoother.tikhonov = Some(system);
+        let solved = solved?;
+        progress(Phase::Report, 0.95);
+        for (c, (channel, solution)) in (first..).zip(channels.iter().zip(&solved.solutions)) {
+            let smoothed: Vec<f64> = solution
+                .values
+                .iter()
+                .zip(&channel.values)
+                .map(|(x, &original)| x.map_or(original, |x| channel.range.min + channel.range.length() * x))
+                .collect();
+            for (vertex, &value) in smoothed.iter().enumerate() {
+                interleaved[vertex * options.channels + c] = value;
+            }
+            reports.push(report::tikhonov(smoother, channel, solution, &smoothed, &solved, options)?);
         }
-        reports.push(report::tikhonov(smoother, channel, solution, &smoothed, &solved, options)?);
     }
     progress(Phase::Report, 1.0);
     Ok(Smoothed { values: interleaved, reports })
 }
+
+/// Channels that are solved for at once: as many as a factor in double precision takes together.
+const TOGETHER: usize = 4;
 
 /// One channel of the input.
 pub(super) struct Channel {
@@ -113,7 +121,20 @@ pub(super) struct Channel {
     pub(super) normalized: Vec<f64>,
 }
 
-fn split_channels(smoother: &Smoother, values: &[f64], channels: usize) -> Result<Vec<Channel>> {
+impl Channel {
+    fn new(smoother: &Smoother, values: Vec<f64>, range: ValueRange) -> Self {
+        let normalized = report::normalize(&values, smoother.mesh.connectivity().link_kinds(), range);
+        Self { values, range, normalized }
+    }
+}
+
+/// One channel of interleaved values.
+fn column(values: &[f64], channel: usize, channels: usize) -> Vec<f64> {
+    values.iter().skip(channel).step_by(channels).copied().collect()
+}
+
+/// The range of every channel, once all of them are known to be valid.
+fn ranges(smoother: &Smoother, values: &[f64], channels: usize) -> Result<Vec<ValueRange>> {
     let n = smoother.mesh.vertex_count();
     if channels == 0 {
         let expected = "a positive integer".to_owned();
@@ -123,12 +144,5 @@ fn split_channels(smoother: &Smoother, values: &[f64], channels: usize) -> Resul
         let expected = n.saturating_mul(channels);
         return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
     }
-    (0..channels)
-        .map(|c| {
-            let values: Vec<f64> = values.iter().skip(c).step_by(channels).copied().collect();
-            let range = value_range(smoother.mesh.connectivity(), &values)?;
-            let normalized = report::normalize(&values, smoother.mesh.connectivity().link_kinds(), range);
-            Ok(Channel { values, range, normalized })
-        })
-        .collect()
+    (0..channels).map(|c| Ok(value_range(smoother.mesh.connectivity(), &column(values, c, channels))?)).collect()
 }

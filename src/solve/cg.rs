@@ -79,6 +79,9 @@ pub fn conjugate_gradient(
     if let Some(row) = (0..n).find(|&i| !(b[i].is_finite() && x[i].is_finite())) {
         return Err(SolveError::NonFiniteEntry { row });
     }
+    if !(options.tolerance > 0.0 && options.tolerance < 1.0) {
+        return Err(SolveError::NotConverged { iterations: 0, residual: 1.0 });
+    }
     let size = norm(b);
     if size == 0.0 {
         x.fill(0.0);

@@ -83,7 +83,8 @@ impl CholeskyAnalysis {
     /// Factorises the matrix with the analysed pattern and the given values, in the order of the pattern: A = L Lᵀ up to
     /// the ordering, for complex values too (the transpose, without conjugation).
     ///
-    /// Real matrices must be positive definite; complex ones symmetric with a real part that is positive semi-definite.
+    /// Real matrices must be positive definite; complex ones symmetric with a real part that is positive semi-definite. Only
+    /// one triangle is read: that the values are symmetric is for the caller to know.
     ///
     /// # Errors
     /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, and `OutOfMemory` with the number of
@@ -123,7 +124,7 @@ impl CholeskyAnalysis {
 }
 
 /// Bytes per unknown that must be left beside a factor, for a few dozen vectors.
-const HEADROOM: u64 = 256;
+const HEADROOM: u64 = 512;
 
 /// A numeric factor.
 #[derive(Debug, Clone)]
@@ -163,6 +164,9 @@ impl<T: Scalar> CholeskyFactor<T> {
     /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`.
     pub fn solve(&self, right_hand_sides: &[T::Wide]) -> Result<Vec<T::Wide>, SolveError> {
         let n = self.analysis.unknowns();
+        if right_hand_sides.is_empty() && n == 0 {
+            return Ok(Vec::new());
+        }
         if n == 0 || !right_hand_sides.len().is_multiple_of(n) {
             return Err(SolveError::DimensionMismatch { expected: n, actual: right_hand_sides.len() });
         }

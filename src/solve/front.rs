@@ -20,10 +20,11 @@ pub(super) fn triangle<U: Unit>(tile: usize) -> usize {
     U::LANES * tile * (tile + 1) / 2
 }
 
-/// Units of a front's part of the factor, and of its update.
-pub(super) fn sizes<U: Unit>(columns: usize, rows: usize) -> (usize, usize) {
-    let below = rows.div_ceil(U::LANES);
-    (triangle::<U>(columns.div_ceil(U::LANES)) + below * columns, triangle::<U>(below))
+/// Units of a front's part of the factor, and of its update. They may be more than there are addresses.
+pub(super) fn sizes<U: Unit>(columns: usize, rows: usize) -> (u64, u64) {
+    let triangle = |tiles: u64| U::LANES as u64 * tiles * (tiles + 1) / 2;
+    let below = rows.div_ceil(U::LANES) as u64;
+    (triangle(columns.div_ceil(U::LANES) as u64) + below * columns as u64, triangle(below))
 }
 
 /// Tiles of pivot columns that are eliminated before the columns after them are brought up to date: 64 columns.

@@ -15,11 +15,11 @@ pub(super) fn storage<U: Unit>(symbolic: &Symbolic) -> (u64, u64) {
     let mut stacks: [Vec<u64>; 2] = [Vec::new(), Vec::new()];
     for s in 0..symbolic.fronts() {
         let (factor, update) = sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len());
-        total += factor as u64;
-        held += update as u64;
+        total += factor;
+        held += update;
         peak = peak.max(held);
         let [own, others] = sides(&mut stacks, symbolic.odd[s]);
-        own.push(update as u64);
+        own.push(update);
         for _ in 0..symbolic.children[s] {
             held -= others.pop().unwrap_or(0);
         }
@@ -67,7 +67,7 @@ pub(super) fn reserve<T>(units: u64) -> Result<Vec<T>, SolveError> {
 /// where the whole factor would not.
 pub(super) fn reserve_fronts<U: Unit>(symbolic: &Symbolic) -> Result<Vec<Vec<U>>, SolveError> {
     let size = |s| sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
-    (0..symbolic.fronts()).map(|s| reserve(size(s) as u64)).collect()
+    (0..symbolic.fronts()).map(|s| reserve(size(s))).collect()
 }
 
 impl<U: Unit> Workspace<U> {
@@ -99,7 +99,9 @@ impl<U: Unit> Workspace<U> {
         for (s, factor) in factor.iter_mut().enumerate() {
             let columns = symbolic.columns(s);
             let rows = symbolic.rows_of(s);
+            // There is room for both, so they are addresses.
             let (factor_size, update_size) = sizes::<U>(columns.len(), rows.len());
+            let (factor_size, update_size) = (factor_size as usize, update_size as usize);
             // Only now, so that the zeros are still in the cache when the front is assembled.
             set_zero(factor, factor_size);
             for (place, column) in columns.clone().enumerate() {

@@ -127,7 +127,8 @@ fn factorize(factor: &mut SymmetricRows, shift: f64) -> Result<(), usize> {
         }
         let middle = factor.middles[i] as usize;
         let diagonal = factor.rows.values[middle] * (1.0 + shift);
-        let pivot = row.clone().fold(diagonal, |pivot, place| pivot - factor.rows.values[place].powi(2));
+        let pivot =
+            row.clone().fold(diagonal, |pivot, place| pivot - factor.rows.values[place] * factor.rows.values[place]);
         if !(pivot > SMALLEST_PIVOT * diagonal && pivot.is_finite()) {
             return Err(i);
         }

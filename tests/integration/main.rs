@@ -20,6 +20,7 @@ mod operators;
 mod ordering;
 mod readme;
 mod refusals;
+mod reuse;
 mod routes;
 mod smooth;
 mod smooth_iterative;
