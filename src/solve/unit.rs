@@ -1,5 +1,5 @@
 //! The short vectors that factors are stored in.
-#![allow(trivial_numeric_casts, reason = "the macro casts for both precisions")]
+#![allow(trivial_numeric_casts, clippy::cast_lossless, reason = "the macro casts for both precisions")]
 
 use core::fmt::Debug;
 
