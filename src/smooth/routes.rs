@@ -18,8 +18,8 @@ use super::{Phase, Precision, Progress, SolverChoice};
 use crate::error::SolveError;
 use crate::operators::MassScale;
 
-/// From about this many unknowns on, conjugate gradients with the complex factor beat the factor of LᵀL, whose cost grows
-/// faster (measured: benches/README.md).
+/// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL, whose cost
+/// grows faster: estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
 const LARGE: usize = 400_000;
 /// Relative errors that refinement stops at: far below every use of the result, and above what a step could still mend.
 const DOUBLE: f64 = 1e-16;
