@@ -354,7 +354,9 @@ describe('single precision', () => {
     const double = new Smoother(mesh, { operator }).tikhonov(f, options);
     const single = new Smoother(mesh, { operator, precision: 'single' }).tikhonov(f, options);
     expect(double.report.solver.precision).toBe('double');
-    expect(single.report.solver).toMatchObject({ precision: 'single', route: double.report.solver.route });
+    // A real factor in single precision is seldom good enough: the complex one serves equation (5) too.
+    const route = double.report.solver.route === 'cholesky' ? 'cgComplexCholesky' : 'complexCholesky';
+    expect(single.report.solver).toMatchObject({ precision: 'single', route });
     expect(single.report.solver.refinementSteps).toBeGreaterThan(0);
     const range = Math.max(...f) - Math.min(...f);
     single.values.forEach((value, i) => expect(Math.abs(value - double.values[i]) / range).toBeLessThan(1e-9));
@@ -364,7 +366,7 @@ describe('single precision', () => {
   it('gives way to double precision where it is not enough', () => {
     const mesh = make(shape);
     const f = field();
-    const smoother = new Smoother(mesh, { precision: 'single' });
+    const smoother = new Smoother(mesh, { solver: 'cholesky', precision: 'single' });
     const hard = smoother.tikhonov(f, { epsilon: 1e-8 });
     expect(hard.report.solver.precision).toBe('doubleAfterSingle');
     expect(hard.values).toEqual(new Smoother(mesh).tikhonov(f, { epsilon: 1e-8 }).values);
