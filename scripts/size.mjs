@@ -7,8 +7,8 @@ import { Problem, main } from './lib/log.mjs';
 import { dist } from './lib/paths.mjs';
 
 const CORE = 'morse_smooth_bg.wasm';
-/** Bytes, brotli at its best: 120 kB for everything else, 35 kB for the sparse solver. */
-const LIMIT = 155_000;
+/** Bytes, brotli at its best: 120 kB for everything else, 36 kB for the sparse solver. */
+const LIMIT = 156_000;
 
 /** Prints the sizes; fails when the core module is too large. */
 export function checkSize() {
