@@ -10,8 +10,7 @@ use nalgebra_sparse::CscMatrix;
 use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
-use super::routes::{Answer, Task, name};
-use super::system::Mass;
+use super::routes::{Answer, Task};
 use super::{Phase, Precision, Progress};
 use crate::error::SolveError;
 use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
@@ -35,37 +34,23 @@ impl ComplexRoute {
         self.factors.drop_factor();
     }
 
-    /// Solves with the factor itself where it is `exact`, else by conjugate gradients.
+    /// Solves with the factor itself where the system splits, else by conjugate gradients.
     pub(super) fn solve(
         &mut self,
         task: &Task<'_>,
         precision: Precision,
-        exact: bool,
         progress: Progress<'_>,
     ) -> Result<Answer, SolveError> {
-        let shift = shift(task, exact);
+        let shift = task.shift();
         let values = |_: &CholeskyAnalysis| shifted(task.problem.laplacian, &shift);
         let factor = self.factors.take(task.key, precision, &values, progress)?;
         progress(Phase::Solve, 0.8);
-        let (iterates, route) = if exact {
+        let (iterates, route) = if task.splits() {
             (split(task, &factor, &shift, task.tolerance(precision))?, "complexCholesky")
         } else {
             (iterative::refined(task, &Product { factor: &factor, size: shift.len() })?, "cgComplexCholesky")
         };
-        self.factors.keep(task.key, factor);
-        let factor_nonzeros = self.factors.analysis.size().nonzeros;
-        Ok(Answer { iterates, route, precision: name(precision), factor_nonzeros })
-    }
-}
-
-/// The diagonal of D: √ε·B where that is exact, else √(ε·m) with the lumped masses m.
-fn shift(task: &Task<'_>, exact: bool) -> Vec<f64> {
-    let root = task.key.0.sqrt();
-    let n = task.problem.unknowns();
-    match task.problem.mass {
-        Mass::Identity => vec![root; n],
-        Mass::Diagonal(masses) if exact => masses.iter().map(|m| root * m).collect(),
-        _ => iterative::shift(task),
+        Ok(self.factors.answer(task.key, factor, iterates, route))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Factors that are kept from one call to the next.
 
-use super::routes::Key;
+use super::refine::Iterate;
+use super::routes::{Answer, Key};
 use super::{Phase, Precision, Progress};
 use crate::error::SolveError;
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
@@ -31,7 +32,7 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
 /// An analysis and the last factor made with it.
 #[derive(Debug)]
 pub(super) struct Factors<D: Scalar, S: Scalar<Wide = D::Wide>> {
-    pub(super) analysis: CholeskyAnalysis,
+    analysis: CholeskyAnalysis,
     last: Option<(Key, Factor<D, S>)>,
 }
 
@@ -41,7 +42,7 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
     }
 
     /// Takes the factor of the matrix with these values: the last one if it has the same key, or a new one, in its memory
-    /// if it has the same precision. To be kept by [`Factors::keep`] if it proves good.
+    /// if it has the same precision. [`Factors::answer`] puts it back.
     pub(super) fn take(
         &mut self,
         key: Key,
@@ -75,12 +76,21 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         })
     }
 
+    /// Keeps a factor that proved good, and says where the solutions come from.
+    pub(super) fn answer(
+        &mut self,
+        key: Key,
+        factor: Factor<D, S>,
+        iterates: Vec<Iterate>,
+        route: &'static str,
+    ) -> Answer {
+        let precision = if factor.precision() == Precision::Single { "single" } else { "double" };
+        self.last = Some((key, factor));
+        Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros }
+    }
+
     /// Gives the memory of the last factor back.
     pub(super) fn drop_factor(&mut self) {
         self.last = None;
-    }
-
-    pub(super) fn keep(&mut self, key: Key, factor: Factor<D, S>) {
-        self.last = Some((key, factor));
     }
 }

@@ -38,27 +38,12 @@ pub(super) fn solve(task: &Task<'_>) -> Result<Answer, SolveError> {
 }
 
 fn squared_sum(task: &Task<'_>) -> Result<SquaredSum, SolveError> {
-    let laplacian = task.problem.laplacian;
-    match task.problem.mass {
-        Mass::Diagonal(masses) if task.problem.weights.is_some() => {
-            let root = task.key.0.sqrt();
-            let shift: Vec<f64> = masses.iter().map(|m| root * m).collect();
-            Ok(SquaredSum::new(laplacian, &shift, SquaredSum::TOLERANCE)?.between(masses))
-        }
-        _ => SquaredSum::new(laplacian, &shift(task), SquaredSum::TOLERANCE),
-    }
-}
-
-/// The diagonal of D in (L + D)² near LᵀL + εB: √(ε·m) with the lumped masses m.
-pub(super) fn shift(task: &Task<'_>) -> Vec<f64> {
-    let root = task.key.0.sqrt();
-    let n = task.problem.unknowns();
-    match task.problem.mass {
-        Mass::Identity => vec![root; n],
-        Mass::Diagonal(masses) => masses.iter().map(|m| root * m.sqrt()).collect(),
-        // The rows of the Galerkin mass matrix sum to the lumped masses.
-        mass @ Mass::Matrix(_) => mass.times(&vec![1.0; n]).iter().map(|m| root * m.sqrt()).collect(),
-    }
+    let squared = SquaredSum::new(task.problem.laplacian, &task.shift(), SquaredSum::TOLERANCE)?;
+    Ok(match (task.problem.weights, task.problem.mass) {
+        // W is the inverse of the masses.
+        (Some(_), Mass::Diagonal(masses)) => squared.between(masses),
+        _ => squared,
+    })
 }
 
 /// Conjugate gradients with a good preconditioner, refined.

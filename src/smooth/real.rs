@@ -4,7 +4,7 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::factors::Factors;
 use super::refine::{Refinement, refine};
-use super::routes::{Answer, Task, name};
+use super::routes::{Answer, Task};
 use super::system::{Mass, Problem};
 use super::{Phase, Precision, Progress};
 use crate::error::SolveError;
@@ -46,9 +46,7 @@ impl RealRoute {
             residual: &|c, x| task.problem.residual(&task.fields[c], x),
             solve: &mut |b, _| factor.solve(b),
         })?;
-        self.factors.keep(task.key, factor);
-        let factor_nonzeros = self.factors.analysis.size().nonzeros;
-        Ok(Answer { iterates, route: "cholesky", precision: name(precision), factor_nonzeros })
+        Ok(self.factors.answer(task.key, factor, iterates, "cholesky"))
     }
 }
 

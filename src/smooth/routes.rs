@@ -65,7 +65,7 @@ pub(super) struct Routes {
 
 impl Task<'_> {
     /// Whether the complex factor solves the system itself: LᵀWL + εB is (L + i√ε·B) B⁻¹ (L − i√ε·B).
-    fn splits(&self) -> bool {
+    pub(super) fn splits(&self) -> bool {
         let matching = self.problem.weights.is_some() || matches!(self.problem.mass, Mass::Identity);
         self.problem.symmetric && matching
     }
@@ -84,6 +84,20 @@ impl Task<'_> {
                 &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative]
             }
             (SolverChoice::Auto, false) => &[Route::Cholesky, Route::CgComplexCholesky, Route::Iterative],
+        }
+    }
+
+    /// The diagonal D of the second-order operator that the routes for a symmetric L are made from: √ε·B where LᵀWL + εB splits,
+    /// else √(ε·m) with the lumped masses m.
+    pub(super) fn shift(&self) -> Vec<f64> {
+        let root = self.key.0.sqrt();
+        let n = self.problem.unknowns();
+        match self.problem.mass {
+            Mass::Identity => vec![root; n],
+            Mass::Diagonal(masses) if self.splits() => masses.iter().map(|m| root * m).collect(),
+            Mass::Diagonal(masses) => masses.iter().map(|m| root * m.sqrt()).collect(),
+            // The rows of the Galerkin mass matrix sum to the lumped masses.
+            mass @ Mass::Matrix(_) => mass.times(&vec![1.0; n]).iter().map(|m| root * m.sqrt()).collect(),
         }
     }
 
@@ -167,30 +181,26 @@ impl Routes {
         if route == Route::Cholesky {
             self.complex = self.complex.take().filter(|_| !large);
             self.complex.iter_mut().for_each(ComplexRoute::drop_factor);
-            let real = match &mut self.real {
-                Some(real) => real,
-                none => {
-                    progress(Phase::Analysis, 0.0);
-                    none.insert(RealRoute::new(task)?)
-                }
-            };
-            real.solve(task, precision, progress)
+            analysed(&mut self.real, || RealRoute::new(task), progress)?.solve(task, precision, progress)
         } else {
             self.real = self.real.take().filter(|_| !large);
             self.real.iter_mut().for_each(RealRoute::drop_factor);
-            let complex = match &mut self.complex {
-                Some(complex) => complex,
-                none => {
-                    progress(Phase::Analysis, 0.0);
-                    none.insert(ComplexRoute::new(task)?)
-                }
-            };
-            complex.solve(task, precision, route == Route::ComplexCholesky, progress)
+            analysed(&mut self.complex, || ComplexRoute::new(task), progress)?.solve(task, precision, progress)
         }
     }
 }
 
-/// The name of a precision in reports.
-pub(super) fn name(precision: Precision) -> &'static str {
-    if precision == Precision::Single { "single" } else { "double" }
+/// What is there, or is made now.
+fn analysed<'a, T>(
+    slot: &'a mut Option<T>,
+    make: impl FnOnce() -> Result<T, SolveError>,
+    progress: Progress<'_>,
+) -> Result<&'a mut T, SolveError> {
+    match slot {
+        Some(there) => Ok(there),
+        none => {
+            progress(Phase::Analysis, 0.0);
+            Ok(none.insert(make()?))
+        }
+    }
 }
