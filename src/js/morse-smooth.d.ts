@@ -204,7 +204,54 @@ export class TriMesh {
    *
    * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `OutOfMemory` (`bytes`) for more points than fit
    */
-  levelSets(values: Numbers, levels: Numbers | { count: number }): LevelSets;
+  levelSets(values: Numbers, levels: Numbers | { count: number } | SaddleLevels): LevelSets;
+
+  /**
+   * The mesh cut along level sets, so that every triangle lies between two levels: band k holds what is at least `levels[k − 1]`
+   * and less than `levels[k]`. What a filled contour plot draws.
+   *
+   * @throws as {@link TriMesh.levelSets}
+   */
+  bands(values: Numbers, levels: Numbers | { count: number }): Bands;
+
+  /** For every critical vertex the δ at which it stops being one, and the number of critical points at every δ. */
+  deltaHierarchy(values: Numbers, options?: { link?: Link }): DeltaHierarchy;
+
+  /**
+   * Pairs every extremum with the saddle at which its component of the sublevel (superlevel) set joins that of a lower (higher)
+   * extremum. The most persistent pair comes first.
+   */
+  persistence(values: Numbers): PersistencePairs;
+
+  /** How many extrema {@link TriMesh.simplify} leaves, for every threshold. */
+  persistenceCurve(values: Numbers): PersistenceCurve;
+
+  /**
+   * A field near the given one that has no other extrema than those of persistence above the threshold (`thresholdIs`:
+   * `"relative"` to the range, the default, or `"absolute"`), or than those in `keep`. With a threshold no value changes by more
+   * than it. Regions that become flat are tilted by the smallest steps that numbers have, so that the extrema by
+   * (value, vertex number) are exactly the wanted ones; this is checked before the result is returned.
+   *
+   * @throws `NotAnExtremum` (`vertex`) for a vertex in `keep`; `Unconstrained` (`component`) where `keep` has no minimum or no
+   *   maximum in a component; `UnavoidableExtremum` (`vertex`) where the mesh hangs together in a single vertex and has no room for
+   *   such a field
+   */
+  simplify(values: Numbers, options: SimplifyOptions): Float64Array;
+
+  /**
+   * From each saddle the steepest paths along edges, one for each component of its lower and of its upper link, to the extrema
+   * where they end. Paths of the same direction that meet go on together.
+   */
+  morseComplex(values: Numbers, options?: MorseComplexOptions): MorseComplex;
+
+  /** The Morse complex at every threshold: what is cancelled when, and into what. */
+  morseHierarchy(values: Numbers): MorseHierarchy;
+
+  /**
+   * For every vertex the minimum and the maximum at which its steepest path ends, where pairs of persistence up to
+   * `persistence` (relative to the range, default 0) are cancelled.
+   */
+  basins(values: Numbers, options?: { persistence?: number }): Basins;
 
   /** How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. */
   smoothness(values: Numbers, options?: { weights?: LaplacianWeights }): Smoothness;
@@ -289,6 +336,136 @@ export interface LevelSets extends Polylines {
   edges: Uint32Array;
   /** Where on its edge each point lies: t of (1 − t)·a + t·b. */
   parameters: Float64Array;
+}
+
+/** Two levels for each saddle: just below it and just above. */
+export interface SaddleLevels {
+  /** All saddles, or these vertices. */
+  saddles: true | Ids;
+  /** Distance of the levels from the saddle's value, relative to the range. Default 0: the nearest levels that tell sides. */
+  offset?: number;
+}
+
+/** See {@link TriMesh.bands}. */
+export interface Bands {
+  /** The levels, ascending, each once. */
+  levels: Float64Array;
+  /** x, y, z of each point. */
+  points: Float64Array;
+  /** Three points for each triangle, turned as the triangle of the mesh that it is a part of. */
+  triangles: Uint32Array;
+  /** The band of each triangle, 0 up to and including the number of levels. */
+  bands: Uint32Array;
+  /** The triangle of the mesh that each triangle is a part of. */
+  parents: Uint32Array;
+  /** The ends a ≤ b of the edge that each point lies on; twice the same where it is a vertex. */
+  edges: Uint32Array;
+  /** Where on its edge each point lies: t of (1 − t)·a + t·b. */
+  parameters: Float64Array;
+}
+
+/** See {@link TriMesh.deltaHierarchy}. A vertex is critical at δ = 0, and at every δ below the one at which it vanishes. */
+export interface DeltaHierarchy {
+  /** Every critical vertex at δ = 0, ascending. */
+  vertices: Uint32Array;
+  /** −1 minimum, 0 saddle, 1 maximum. */
+  kinds: Int8Array;
+  /** The relative δ at which each vertex stops being critical: 0 where only its number tells it from an equal neighbour. */
+  vanishesAt: Float64Array;
+  /** The same δ in units of the field. */
+  vanishesAtAbsolute: Float64Array;
+  /**
+   * Numbers of critical points as steps over the relative δ: row 0 is δ = 0, and row k holds from `delta[k]` up to, not
+   * including, `delta[k + 1]`. (Where ties matter, row 1 begins at the least number above 0.)
+   */
+  delta: Float64Array;
+  minima: Uint32Array;
+  maxima: Uint32Array;
+  /** With multiplicity. */
+  saddles: Uint32Array;
+}
+
+/** See {@link TriMesh.persistence}. Entry k of the first six arrays is about the same pair. */
+export interface PersistencePairs {
+  extrema: Uint32Array;
+  saddles: Uint32Array;
+  /** −1 minimum and saddle, 1 saddle and maximum. */
+  kinds: Int8Array;
+  /** The lower of the two values. */
+  birth: Float64Array;
+  /** The higher of the two values. */
+  death: Float64Array;
+  /** death − birth; descending. */
+  persistence: Float64Array;
+  /** The lowest vertex of each component of the mesh. */
+  essentialMinima: Uint32Array;
+  /** The highest vertex of each component of the mesh. */
+  essentialMaxima: Uint32Array;
+  /**
+   * Saddles at which a loop begins that never closes up: as many as the first Betti number, 2g on a closed orientable surface.
+   * A vertex may stand there several times.
+   */
+  essentialSaddles: Uint32Array;
+}
+
+/** See {@link TriMesh.persistenceCurve}. Row k holds from `threshold[k]` up to, not including, `threshold[k + 1]`. */
+export interface PersistenceCurve {
+  /** In units of the field; row 0 is 0. */
+  threshold: Float64Array;
+  /** Minima of persistence above the threshold, the lowest vertex of each component included. */
+  minima: Uint32Array;
+  maxima: Uint32Array;
+}
+
+/** What {@link TriMesh.simplify} is to keep. */
+export type SimplifyOptions = { threshold: number; thresholdIs?: 'relative' | 'absolute' } | { keep: Ids };
+
+/** See {@link TriMesh.morseComplex}. */
+export interface MorseComplexOptions {
+  /** Pairs of persistence up to this, relative to the range, are cancelled first. Default 0: none but those of tied values. */
+  persistence?: number;
+  /** `"whole"` (default): every line runs to its extremum. `"merged"`: a line ends where it meets one that is there already. */
+  paths?: 'whole' | 'merged';
+}
+
+/** One line for each saddle and component of its link, from the saddle to the extremum. */
+export interface MorseComplex extends Polylines {
+  /** The saddle that each line comes from. */
+  saddles: Uint32Array;
+  /** The extremum that each line leads to. */
+  extrema: Uint32Array;
+  /** −1 to a minimum, 1 to a maximum. */
+  kinds: Int8Array;
+  /** The vertex of each point. */
+  vertices: Uint32Array;
+}
+
+/**
+ * See {@link TriMesh.morseHierarchy}. A saddle of multiplicity k stands for k simple ones, each a node of its own. At a threshold t
+ * the complex has the nodes with `cancelledAt` above t; an arc leads from its saddle to its extremum or, where that is
+ * cancelled, to where `into` leads from there.
+ */
+export interface MorseHierarchy {
+  /** The vertex of each node: the extrema first, then the saddles. */
+  vertices: Uint32Array;
+  /** −1 minimum, 0 saddle, 1 maximum. */
+  kinds: Int8Array;
+  /** The persistence of the pair that the node is cancelled with, in units of the field; infinite for those that stay. */
+  cancelledAt: Float64Array;
+  /** For each node the one that it is cancelled with; itself for those that stay. */
+  partners: Uint32Array;
+  /** For each extremum the node of the one that takes over its arcs; for others the node itself. */
+  into: Uint32Array;
+  /** Two nodes for each arc, a saddle and an extremum: on a surface without boundary four arcs for each saddle. */
+  arcs: Uint32Array;
+}
+
+/** See {@link TriMesh.basins}. A vertex of no triangle has 4294967295. */
+export interface Basins {
+  /** The minimum at which the path downwards ends. */
+  descending: Uint32Array;
+  /** The maximum at which the path upwards ends. */
+  ascending: Uint32Array;
 }
 
 /** See {@link TriMesh.smoothness}. */
