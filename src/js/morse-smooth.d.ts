@@ -249,7 +249,7 @@ export class TriMesh {
 
   /**
    * For every vertex the minimum and the maximum at which its steepest path ends, where pairs of persistence up to
-   * `persistence` (relative to the range, default 0) are cancelled.
+   * `persistence` (relative to the range) are cancelled; by default none.
    */
   basins(values: Numbers, options?: { persistence?: number }): Basins;
 
@@ -422,7 +422,7 @@ export type SimplifyOptions = { threshold: number; thresholdIs?: 'relative' | 'a
 
 /** See {@link TriMesh.morseComplex}. */
 export interface MorseComplexOptions {
-  /** Pairs of persistence up to this, relative to the range, are cancelled first. Default 0: none but those of tied values. */
+  /** Pairs of persistence up to this, relative to the range, are cancelled first. Default 0: none, not even tied ones. */
   persistence?: number;
   /** `"whole"` (default): every line runs to its extremum. `"merged"`: a line ends where it meets one that is there already. */
   paths?: 'whole' | 'merged';
