@@ -163,11 +163,11 @@ const SAW_NEUTRAL: u32 = 2;
 const SAW_ABOVE: u32 = 4;
 const SAW_BOTH: u32 = SAW_BELOW | SAW_ABOVE;
 const SAW_ANY: u32 = SAW_BOTH | SAW_NEUTRAL;
-const ONE_CHANGE: u32 = 8;
+pub(super) const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
 /// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
-fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
+pub(super) fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
     let mut states = vec![0_u32; connectivity.vertex_count()];
     for &[a, b, c] in connectivity.triangles() {
         let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));

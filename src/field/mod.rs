@@ -1,9 +1,17 @@
 //! Scalar fields on a mesh: order of the vertices, critical points, level sets.
 
 mod critical;
+mod direction;
 mod level_set;
 mod link;
+mod link_sides;
+mod loops;
+mod merging;
 mod order;
+mod persistence;
+mod saddles;
+mod sorting;
+mod steepest;
 
 pub use critical::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading,
@@ -11,3 +19,4 @@ pub use critical::{
 };
 pub use level_set::{LevelSets, evenly_spaced_levels, level_sets};
 pub use order::{ValueRange, VertexOrder, value_range};
+pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};

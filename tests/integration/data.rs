@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use morse_smooth::field::{
-    CriticalCounts, DeltaOptions, LinkReading, critical_points, largest_edge_difference, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, LinkReading, critical_points, largest_edge_difference, persistence,
+    value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
 use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
@@ -115,6 +116,17 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
             let found = critical_points(mesh, values, &options).expect("a field").counts;
             check.equal(&format!("{context} δ = {delta} {name}"), &as_array(&found), &counts(&readings[name]));
         }
+    }
+    let diagram = persistence(mesh, values).expect("a field");
+    for (threshold, pairs) in expected["persistentPairsAbove"].as_object().expect("a table of thresholds") {
+        let threshold = threshold.parse::<f64>().expect("a number") * (range.max - range.min);
+        let above = |kind| diagram.pairs.iter().filter(|p| p.kind == kind && p.persistence > threshold).count() as u64;
+        let found = [
+            above(CriticalKind::Minimum) + diagram.essential_minima.len() as u64,
+            above(CriticalKind::Maximum) + diagram.essential_maxima.len() as u64,
+        ];
+        let expected = [0, 1].map(|side| pairs[side].as_u64().expect("a count"));
+        check.equal(&format!("{context} pairs above {threshold}"), &found, &expected);
     }
     let normalized: Vec<f64> = values.iter().map(|v| (v - range.min) / (range.max - range.min)).collect();
     let energies = smoothness(smoother.laplacian(), &normalized).expect("a field");

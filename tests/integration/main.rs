@@ -18,6 +18,7 @@ mod level_sets;
 mod mesh;
 mod operators;
 mod ordering;
+mod persistence;
 mod readme;
 mod refusals;
 mod reuse;

@@ -1,0 +1,82 @@
+//! Components of growing sublevel or superlevel sets, by union and find.
+
+use super::direction::Sweep;
+use super::saddles::Saddles;
+
+/// The components of what a sweep has met, each named by the extremum that it began with.
+///
+/// Only saddles have to be visited, in the order of the sweep, and not all vertices: between saddles, components grow, and a
+/// steepest path stays within its component, so that a neighbour's component is that of the extremum it leads to.
+#[derive(Debug)]
+pub(super) struct Merging<'a> {
+    sweep: Sweep<'a>,
+    /// At first the steepest paths; later, extrema lead on to those that their components joined.
+    parents: Vec<u32>,
+}
+
+/// Two components became one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Merged {
+    /// The extremum that was met later: its component ends.
+    pub(super) ended: u32,
+    /// The extremum that now names both.
+    pub(super) survivor: u32,
+}
+
+impl<'a> Merging<'a> {
+    /// `steepest` has the neighbour that every vertex leads to, against the direction of the sweep.
+    pub(super) fn new(sweep: Sweep<'a>, steepest: Vec<u32>) -> Self {
+        Self { sweep, parents: steepest }
+    }
+
+    /// The extremum that the component of `v` began with.
+    pub(super) fn find(&mut self, mut v: u32) -> u32 {
+        loop {
+            let parent = self.parents[v as usize];
+            if parent == v {
+                return v;
+            }
+            let above = self.parents[parent as usize];
+            self.parents[v as usize] = above;
+            v = above;
+        }
+    }
+
+    /// Joins the components of `a` and `b`; `None` if they are one already.
+    pub(super) fn join(&mut self, a: u32, b: u32) -> Option<Merged> {
+        let (a, b) = (self.find(a), self.find(b));
+        if a == b {
+            return None;
+        }
+        let (survivor, ended) = if self.sweep.precedes(a, b) { (a, b) } else { (b, a) };
+        self.parents[ended as usize] = survivor;
+        Some(Merged { ended, survivor })
+    }
+
+    /// As [`Self::join`], where only the number of components matters.
+    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parents[a as usize] = b;
+        a != b
+    }
+
+    /// Visits the saddles in the order of the sweep and tells what merges where.
+    pub(super) fn visit(&mut self, saddles: &Saddles, ascending: &[u32], mut tell: impl FnMut(u32, Merged)) {
+        let downwards = self.sweep.is_downwards();
+        for i in 0..ascending.len() {
+            let place = if downwards { ascending.len() - 1 - i } else { i };
+            let saddle = saddles.get(ascending[place]);
+            let sides = if downwards { saddle.upper } else { saddle.lower };
+            for k in 1..sides.len() {
+                if let Some(merged) = self.join(sides[0], sides[k]) {
+                    tell(saddle.vertex, merged);
+                }
+            }
+        }
+    }
+
+    /// For every vertex itself, if nothing took over its component.
+    pub(super) fn roots(&self) -> impl Iterator<Item = Option<u32>> {
+        self.parents.iter().enumerate().map(|(v, &parent)| (v as u32 == parent).then_some(parent))
+    }
+}
