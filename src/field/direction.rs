@@ -25,8 +25,8 @@ impl<'a> Sweep<'a> {
         self.order.is_below(a, b) != self.downwards
     }
 
-    pub(super) fn value(self, v: u32) -> f64 {
-        self.order.values()[v as usize]
+    pub(super) fn values(self) -> &'a [f64] {
+        self.order.values()
     }
 
     pub(super) fn is_downwards(self) -> bool {

@@ -75,8 +75,8 @@ impl<'a> Merging<'a> {
         }
     }
 
-    /// For every vertex itself, if nothing took over its component.
-    pub(super) fn roots(&self) -> impl Iterator<Item = Option<u32>> {
-        self.parents.iter().enumerate().map(|(v, &parent)| (v as u32 == parent).then_some(parent))
+    /// Whether nothing took over the component that began with `v`.
+    pub(super) fn is_root(&self, v: u32) -> bool {
+        self.parents[v as usize] == v
     }
 }

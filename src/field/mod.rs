@@ -2,6 +2,8 @@
 
 mod critical;
 mod direction;
+mod flats;
+mod flooding;
 mod level_set;
 mod link;
 mod link_sides;
@@ -10,8 +12,10 @@ mod merging;
 mod order;
 mod persistence;
 mod saddles;
+mod simplify;
 mod sorting;
 mod steepest;
+mod tilt;
 
 pub use critical::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading,
@@ -20,3 +24,4 @@ pub use critical::{
 pub use level_set::{LevelSets, evenly_spaced_levels, level_sets};
 pub use order::{ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
+pub use simplify::{Keep, ThresholdScale, simplify};

@@ -140,9 +140,10 @@ pub fn persistence(mesh: &TriMesh, values: &[f64]) -> Result<PersistenceDiagram,
                 persistence: death - birth,
             });
         });
-        let connected = mesh.connectivity().link_kinds().iter().map(|&kind| kind != LinkKind::Isolated);
-        let essential = merging.roots().zip(connected).filter(|&(_, connected)| connected);
-        let essential = essential.filter_map(|(root, _)| root).collect();
+        let kinds = mesh.connectivity().link_kinds();
+        let essential = (0..values.len() as u32)
+            .filter(|&v| merging.is_root(v) && kinds[v as usize] != LinkKind::Isolated)
+            .collect();
         match kind {
             CriticalKind::Minimum => diagram.essential_minima = essential,
             _ => diagram.essential_maxima = essential,

@@ -30,32 +30,52 @@ pub(super) struct Saddles {
 }
 
 impl Saddles {
-    #[inline(never)]
     pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, steepness: Steepness<'_>) -> Self {
+        Self::with_tips(mesh, order, steepness, &[], false)
+    }
+
+    /// As if the vertices in `tips` were raised a little (`upper`), or lowered: around such a vertex, what is farther out in that
+    /// direction is joined to the vertex itself. Nothing changes at one that is an extremum.
+    #[inline(never)]
+    pub(super) fn with_tips(
+        mesh: &TriMesh,
+        order: VertexOrder<'_>,
+        steepness: Steepness<'_>,
+        tips: &[bool],
+        upper: bool,
+    ) -> Self {
         let connectivity = mesh.connectivity();
         let states = sweep(connectivity, |i, j| if order.is_below(i, j) { 1 } else { -1 });
         let mut sides = LinkSides::new(mesh.vertex_count());
         let mut this = Self { offsets: vec![0], ..Self::default() };
         for (v, (&state, &kind)) in states.iter().zip(connectivity.link_kinds()).enumerate() {
-            if (kind == LinkKind::Cycle && state < 4 * ONE_CHANGE) || kind == LinkKind::Isolated {
+            let tip = tips.get(v) == Some(&true);
+            if (kind == LinkKind::Cycle && state < 4 * ONE_CHANGE && !tip) || kind == LinkKind::Isolated {
                 continue;
             }
             let v = v as u32;
             sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            let lower = sides.components().iter().filter(|component| component.lower).count();
-            if lower.max(sides.components().len() - lower) < 2 {
-                continue;
-            }
-            for side in [true, false] {
-                for &component in sides.components().iter().filter(|component| component.lower == side) {
+            let start = this.first.len();
+            let mut counts = [0, 0];
+            for (count, lower) in counts.iter_mut().zip([true, false]) {
+                let before = this.first.len();
+                if tip && lower != upper {
+                    this.first.push(v);
+                }
+                for &component in sides.components().iter().filter(|component| component.lower == lower) {
                     let members = sides.members(component).iter().copied();
                     let steepest =
                         members.reduce(|best, j| if steepness.is_steeper(order, v, j, best) { j } else { best });
                     this.first.extend(steepest);
                 }
+                *count = (this.first.len() - before) as u32;
+            }
+            if counts[0].max(counts[1]) < 2 {
+                this.first.truncate(start);
+                continue;
             }
             this.vertices.push(v);
-            this.lower.push(lower as u32);
+            this.lower.push(counts[0]);
             this.offsets.push(this.first.len() as u32);
         }
         this

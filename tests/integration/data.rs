@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, LinkReading, critical_points, largest_edge_difference, persistence,
-    value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, ThresholdScale, critical_points,
+    largest_edge_difference, persistence, simplify, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
 use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
@@ -127,6 +127,17 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
         ];
         let expected = [0, 1].map(|side| pairs[side].as_u64().expect("a count"));
         check.equal(&format!("{context} pairs above {threshold}"), &found, &expected);
+        let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+        let simple = simplify(mesh, values, keep).expect("a surface");
+        let counts = critical_points(mesh, &simple, &DeltaOptions::default()).expect("a field").counts;
+        let found = [u64::from(counts.minima), u64::from(counts.maxima)];
+        check.equal(&format!("{context} simplified by {threshold}"), &found, &expected);
+        let change = values.iter().zip(&simple).map(|(f, g)| (f - g).abs()).fold(0.0, f64::max);
+        check.equal(&format!("{context} changes by {change}, up to {threshold}"), &(change <= threshold), &true);
+        if mesh.topology().closed {
+            let sum = i64::from(counts.minima) + i64::from(counts.maxima) - i64::from(counts.saddles);
+            check.equal(&format!("{context} m − s + M"), &sum, &mesh.topology().euler_characteristic);
+        }
     }
     let normalized: Vec<f64> = values.iter().map(|v| (v - range.min) / (range.max - range.min)).collect();
     let energies = smoothness(smoother.laplacian(), &normalized).expect("a field");

@@ -23,6 +23,7 @@ mod readme;
 mod refusals;
 mod reuse;
 mod routes;
+mod simplify;
 mod smooth;
 mod smooth_iterative;
 mod solve;
