@@ -4,11 +4,10 @@ use std::collections::BinaryHeap;
 
 use core::cmp::Reverse;
 
-use super::direction::Sweep;
-use super::merging::Merging;
+use super::merging::Forest;
 use super::order::VertexOrder;
 use super::saddles::Saddles;
-use super::sorting::sort_by_value;
+use super::sorting::{sort_by_key, sort_by_value};
 use super::steepest::Steepest;
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
 
@@ -23,27 +22,21 @@ pub(super) fn essential_saddles(
     if mesh.connectivity().link_kinds().contains(&LinkKind::NonManifold) {
         return Coboundaries::new(mesh.connectivity(), order).essential_saddles();
     }
-    of_manifold(mesh.connectivity(), order, saddles, ascending, steepest)
+    of_manifold(mesh.connectivity(), saddles, ascending, steepest)
 }
 
 /// On a surface, l components of the lower link are l − 1 handles: each joins components of the sublevel set, or begins a
 /// loop. By duality a loop comes to bound where components of the superlevel set join; a vertex above everything, next to
 /// the whole boundary, takes the place of what lies beyond the boundary.
-fn of_manifold(
-    connectivity: &Connectivity,
-    order: VertexOrder<'_>,
-    saddles: &Saddles,
-    ascending: &[u32],
-    steepest: &Steepest,
-) -> Vec<u32> {
+fn of_manifold(connectivity: &Connectivity, saddles: &Saddles, ascending: &[u32], steepest: &Steepest) -> Vec<u32> {
     let beyond = connectivity.vertex_count() as u32;
     let mut up = steepest.up.clone();
     up.push(beyond);
     for &v in connectivity.special_vertices() {
         up[v as usize] = beyond;
     }
-    let mut below = Merging::new(Sweep::upwards(order), steepest.down.clone());
-    let mut above = Merging::new(Sweep::downwards(order), up);
+    let mut below = Forest::new(steepest.down.clone());
+    let mut above = Forest::new(up);
     let mut loops = vec![0_u32; saddles.len()];
     for &i in ascending {
         let saddle = saddles.get(i);
@@ -140,11 +133,10 @@ impl<'a> Coboundaries<'a> {
     fn essential_saddles(mut self) -> Vec<u32> {
         let edges = self.edges();
         let mut joining = vec![false; edges.len()];
-        let mut parents: Vec<u32> = (0..self.vertices.len() as u32).collect();
+        let mut components = Forest::new((0..self.vertices.len() as u32).collect());
         for (place, &edge) in edges.iter().enumerate() {
-            let [a, b] = self.connectivity.edges()[edge as usize].map(|v| root(&mut parents, v));
-            parents[a as usize] = b;
-            joining[place] = a != b;
+            let [a, b] = self.connectivity.edges()[edge as usize];
+            joining[place] = components.unite(a, b);
         }
         let mut essential = Vec::new();
         for (&edge, &joins) in edges.iter().zip(&joining).rev() {
@@ -161,7 +153,7 @@ impl<'a> Coboundaries<'a> {
     fn edges(&self) -> Vec<u32> {
         let rank = |edge: u32| self.connectivity.edges()[edge as usize].map(|v| self.ranks[v as usize]);
         let mut edges: Vec<u32> = (0..self.connectivity.edges().len() as u32).collect();
-        super::sorting::sort_by_key(&mut edges, &|edge| {
+        sort_by_key(&mut edges, &|edge| {
             let [a, b] = rank(edge);
             u64::from(a.max(b)) << 32 | u64::from(a.min(b))
         });
@@ -208,13 +200,4 @@ impl<'a> Coboundaries<'a> {
         }
         next
     }
-}
-
-fn root(parents: &mut [u32], mut v: u32) -> u32 {
-    while parents[v as usize] != v {
-        let above = parents[parents[v as usize] as usize];
-        parents[v as usize] = above;
-        v = above;
-    }
-    v
 }

@@ -3,6 +3,48 @@
 use super::direction::Sweep;
 use super::saddles::Saddles;
 
+/// Sets of vertices, each named by one of them.
+#[derive(Debug)]
+pub(super) struct Forest {
+    /// Towards the name.
+    parents: Vec<u32>,
+}
+
+impl Forest {
+    pub(super) fn new(parents: Vec<u32>) -> Self {
+        Self { parents }
+    }
+
+    pub(super) fn find(&mut self, mut v: u32) -> u32 {
+        loop {
+            let parent = self.parents[v as usize];
+            if parent == v {
+                return v;
+            }
+            // Half of the way becomes shorter each time.
+            let above = self.parents[parent as usize];
+            self.parents[v as usize] = above;
+            v = above;
+        }
+    }
+
+    pub(super) fn is_name(&self, v: u32) -> bool {
+        self.parents[v as usize] == v
+    }
+
+    /// Two names become the second one.
+    pub(super) fn lead(&mut self, from: u32, to: u32) {
+        self.parents[from as usize] = to;
+    }
+
+    /// Whether `a` and `b` were in different sets until now.
+    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.find(a), self.find(b));
+        self.lead(a, b);
+        a != b
+    }
+}
+
 /// The components of what a sweep has met, each named by the extremum that it began with.
 ///
 /// Only saddles have to be visited, in the order of the sweep, and not all vertices: between saddles, components grow, and a
@@ -11,7 +53,7 @@ use super::saddles::Saddles;
 pub(super) struct Merging<'a> {
     sweep: Sweep<'a>,
     /// At first the steepest paths; later, extrema lead on to those that their components joined.
-    parents: Vec<u32>,
+    components: Forest,
 }
 
 /// Two components became one.
@@ -26,20 +68,12 @@ pub(super) struct Merged {
 impl<'a> Merging<'a> {
     /// `steepest` has the neighbour that every vertex leads to, against the direction of the sweep.
     pub(super) fn new(sweep: Sweep<'a>, steepest: Vec<u32>) -> Self {
-        Self { sweep, parents: steepest }
+        Self { sweep, components: Forest::new(steepest) }
     }
 
     /// The extremum that the component of `v` began with.
-    pub(super) fn find(&mut self, mut v: u32) -> u32 {
-        loop {
-            let parent = self.parents[v as usize];
-            if parent == v {
-                return v;
-            }
-            let above = self.parents[parent as usize];
-            self.parents[v as usize] = above;
-            v = above;
-        }
+    pub(super) fn find(&mut self, v: u32) -> u32 {
+        self.components.find(v)
     }
 
     /// Joins the components of `a` and `b`; `None` if they are one already.
@@ -49,15 +83,8 @@ impl<'a> Merging<'a> {
             return None;
         }
         let (survivor, ended) = if self.sweep.precedes(a, b) { (a, b) } else { (b, a) };
-        self.parents[ended as usize] = survivor;
+        self.components.lead(ended, survivor);
         Some(Merged { ended, survivor })
-    }
-
-    /// As [`Self::join`], where only the number of components matters.
-    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parents[a as usize] = b;
-        a != b
     }
 
     /// Visits the saddles in the order of the sweep and tells what merges where.
@@ -77,6 +104,6 @@ impl<'a> Merging<'a> {
 
     /// Whether nothing took over the component that began with `v`.
     pub(super) fn is_root(&self, v: u32) -> bool {
-        self.parents[v as usize] == v
+        self.components.is_name(v)
     }
 }

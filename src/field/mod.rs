@@ -9,6 +9,7 @@ mod link;
 mod link_sides;
 mod loops;
 mod merging;
+mod morse;
 mod order;
 mod persistence;
 mod saddles;
@@ -22,6 +23,7 @@ pub use critical::{
     critical_points, largest_edge_difference,
 };
 pub use level_set::{LevelSets, evenly_spaced_levels, level_sets};
+pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basins, morse_complex, morse_hierarchy};
 pub use order::{ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
 pub use simplify::{Keep, ThresholdScale, simplify};
