@@ -287,6 +287,13 @@ stage_error! {
             /// Its place in the list.
             index: usize,
         } => "level {index} is not finite",
+        /// A vertex that was asked for does not exist.
+        IndexOutOfBounds {
+            /// Its id.
+            index: u32,
+            /// Number of vertices.
+            vertices: usize,
+        } => "there is no vertex {index}: there are {vertices} vertices, numbered from 0",
         /// The memory that the result needs cannot be had.
         OutOfMemory {
             /// Bytes needed.

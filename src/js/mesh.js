@@ -66,8 +66,16 @@ export class TriMesh {
     return this.#analyse('criticalPoints', values, toOptions(options));
   }
 
+  deltaHierarchy(values, options) {
+    return this.#analyse('deltaHierarchy', values, toOptions(options));
+  }
+
   levelSets(values, levels) {
-    return this.#analyse('levelSets', values, toLevels(levels));
+    return this.#analyse('levelSets', values, toLevels(levels, this.vertexCount));
+  }
+
+  bands(values, levels) {
+    return this.#analyse('bands', values, toLevels(levels, this.vertexCount));
   }
 
   smoothness(values, options) {

@@ -2,8 +2,10 @@
 #![allow(unreachable_pub, reason = "wasm-bindgen exports what is `pub`, however private the module")]
 
 mod convert;
+mod critical;
 mod error;
 mod files;
+mod levels;
 mod mesh;
 mod options;
 mod smoother;

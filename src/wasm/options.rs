@@ -28,6 +28,9 @@ pub(super) struct Options {
     pub(super) file_name: Option<String>,
     pub(super) binary: Option<bool>,
     pub(super) count: Option<u32>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    pub(super) saddles: JsValue,
+    pub(super) offset: Option<f64>,
     kind: Option<String>,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     pub(super) column: JsValue,
@@ -88,7 +91,7 @@ fn not_an_object() -> OptionError {
 /// What kind of value an option takes, in the words of JavaScript rather than of serde.
 fn expected(option: &str) -> &'static str {
     match option {
-        "delta" | "cutoffWavelength" => "a number",
+        "delta" | "offset" | "cutoffWavelength" => "a number",
         "channels" | "count" => "an integer that is not negative",
         "weld" | "binary" | "bounds" => "true or false",
         _ => "a name in quotes",
@@ -232,7 +235,7 @@ impl Options {
     }
 }
 
-fn inapplicable(option: &str, reason: &str) -> OptionError {
+pub(super) fn inapplicable(option: &str, reason: &str) -> OptionError {
     OptionError::InapplicableOption { option: option.to_owned(), reason: reason.to_owned() }
 }
 
