@@ -287,13 +287,13 @@ stage_error! {
             /// Its place in the list.
             index: usize,
         } => "level {index} is not finite",
-        /// A vertex id that the mesh does not have.
+        /// A vertex that was asked for does not exist.
         IndexOutOfBounds {
-            /// The id.
+            /// Its id.
             index: u32,
             /// Number of vertices.
             vertices: usize,
-        } => "vertex {index} is named, but there are {vertices} vertices, numbered from 0",
+        } => "there is no vertex {index}: there are {vertices} vertices, numbered from 0",
         /// A vertex that was to stay an extremum is none.
         NotAnExtremum {
             /// The vertex.

@@ -131,7 +131,7 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
         return Err(OptionError::InvalidOption { option: "delta".to_owned(), expected }.into());
     }
     if options.delta == 0.0 {
-        return Ok(classify(connectivity, options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 }));
+        return Ok(exact(connectivity, order));
     }
     let delta = match options.scale {
         DeltaScale::Absolute => options.delta,
@@ -141,6 +141,13 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
     }))
+}
+
+/// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
+#[inline(never)]
+pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
+    let options = DeltaOptions::default();
+    classify(connectivity, &options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 })
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.

@@ -4,11 +4,12 @@ use js_sys::{Float64Array, Int8Array, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::convert::{floats, ids};
+use super::critical::sign;
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{invalid, is_absent, read};
 use crate::error::FieldError;
-use crate::field::{self, CriticalKind, Keep};
+use crate::field::{self, CriticalKind};
 
 fn numbers(result: &Object, name: &str, values: impl Iterator<Item = f64>) {
     let values: Vec<f64> = values.collect();
@@ -21,7 +22,7 @@ fn indices(result: &Object, name: &str, values: impl Iterator<Item = u32>) {
 }
 
 fn kinds(result: &Object, values: impl Iterator<Item = CriticalKind>) {
-    let values: Vec<i8> = values.map(super::critical::number_of).collect();
+    let values: Vec<i8> = values.map(sign).collect();
     set(result, "kinds", &Int8Array::from(values.as_slice()));
 }
 
@@ -54,16 +55,15 @@ impl RawTriMesh {
         Ok(result)
     }
 
-    /// `keep` is taken out of the options by JavaScript, which turns it into a `Uint32Array`.
-    pub fn simplify(&self, values: &Float64Array, options: &JsValue, keep: &JsValue) -> Result<Float64Array, Thrown> {
+    pub fn simplify(&self, values: &Float64Array, options: &JsValue) -> Result<Float64Array, Thrown> {
         let options = read(options, &[&["threshold", "thresholdIs", "keep"]])?;
         let values = floats(values)?;
-        let simple = if let Some(keep) = keep.dyn_ref::<Uint32Array>() {
-            options.refuse_threshold()?;
-            field::simplify(self.mesh(), &values, Keep::Extrema(&ids(keep)?))?
-        } else {
-            field::simplify(self.mesh(), &values, options.threshold()?)?
+        let kept = match options.keep.dyn_ref::<Uint32Array>() {
+            Some(kept) => Some(ids(kept)?),
+            None if is_absent(&options.keep) => None,
+            None => return Err(invalid("keep", "a list of vertices").into()),
         };
+        let simple = field::simplify(self.mesh(), &values, options.extrema(kept.as_deref())?)?;
         Ok(Float64Array::from(simple.as_slice()))
     }
 
