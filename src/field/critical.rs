@@ -146,7 +146,7 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
 
 /// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
 pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
-    exact_from(connectivity, order, &sweep(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1))
+    exact_from(connectivity, order, &exact_states(connectivity, order))
 }
 
 #[inline(never)]
@@ -213,7 +213,7 @@ pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f
 /// The states of all vertices at δ = 0, see [`sweep`].
 #[inline(never)]
 pub(super) fn exact_states(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
-    sweep(connectivity, |i, j| if order.is_below(i, j) { 1 } else { -1 })
+    sweep(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
 }
 
 /// Bits of the state that [`sweep`] leaves at a vertex: which signs its link vertices have, and above them the number of

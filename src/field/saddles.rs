@@ -148,7 +148,8 @@ impl Saddles {
     #[inline]
     pub(super) fn get(&self, index: u32) -> Saddle<'_> {
         let index = index as usize;
-        let [start, middle, end] = [0, 1, 2].map(|i| self.offsets[2 * index + i] as usize);
+        let offsets = &self.offsets[2 * index..2 * index + 3];
+        let (start, middle, end) = (offsets[0] as usize, offsets[1] as usize, offsets[2] as usize);
         Saddle {
             vertex: self.vertices[index],
             lower: &self.first[start..middle],

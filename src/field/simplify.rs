@@ -2,12 +2,11 @@
 
 use super::critical::{CriticalKind, DeltaOptions, critical_points};
 use super::direction::Sweep;
-use super::flats::{Role, ordered};
+use super::flats::{Role, Surroundings, ordered};
 use super::flooding::{flood, flood_along};
 use super::merging::Merging;
 use super::order::{VertexOrder, value_range};
 use super::saddles::Saddles;
-use super::sorting::sort_by_value;
 use super::steepest::Steepest;
 use super::tilt::tilted;
 use crate::error::{Error, FieldError, OptionError};
@@ -93,9 +92,9 @@ pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f6
     let between = VertexOrder::new(&filled, filled.len())?;
     let levels = flood(mesh, between, true, &having(&roles, Role::Maximum))?;
     drop(filled);
-    let mut sequence = ordered(mesh.connectivity(), &levels, &roles);
-    sort_by_value(&mut sequence, &levels);
-    let simple = tilted(mesh.connectivity(), &levels, &sequence, values, bound);
+    let around = Surroundings::new(mesh.connectivity(), &levels, &roles);
+    let sequence = ordered(mesh.connectivity(), &around, &roles);
+    let simple = tilted(mesh.connectivity(), &around, &levels, sequence, values, bound);
     check(mesh, &simple, &roles)?;
     Ok(simple)
 }

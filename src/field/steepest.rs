@@ -58,7 +58,7 @@ impl Steepest {
 }
 
 /// |f_a − f_b| over the distance of a and b.
-#[inline]
+#[inline(always)]
 fn slope(mesh: &TriMesh, order: VertexOrder<'_>, a: u32, b: u32) -> f64 {
     let drop = (order.values()[a as usize] - order.values()[b as usize]).abs();
     let length = norm(difference(mesh.position(a), mesh.position(b)));
@@ -75,6 +75,9 @@ fn slope(mesh: &TriMesh, order: VertexOrder<'_>, a: u32, b: u32) -> f64 {
 /// The steepest of several neighbours of `v` on the same side of it, as in [`Steepest::by_slope`].
 pub(super) fn steepest_of(mesh: &TriMesh, order: VertexOrder<'_>, v: u32, neighbours: &[u32]) -> u32 {
     let mut best = neighbours[0];
+    if neighbours.len() == 1 {
+        return best;
+    }
     let mut best_slope = slope(mesh, order, v, best);
     for &j in &neighbours[1..] {
         let slope = slope(mesh, order, v, j);

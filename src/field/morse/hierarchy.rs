@@ -87,7 +87,7 @@ pub(super) struct Cancellation {
 pub(super) struct Cancellations {
     pub(super) steepest: Steepest,
     pub(super) units: Units,
-    /// For every vertex the minimum and the maximum it flows to.
+    /// For every vertex the minimum and the maximum it flows to; nothing where nothing is cancelled.
     pub(super) ends: [Vec<u32>; 2],
     /// By ascending persistence.
     list: Vec<Cancellation>,
@@ -100,7 +100,7 @@ impl Cancellations {
     pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, limit: f64) -> Self {
         let steepest = Steepest::by_slope(mesh, order);
         let units = Units::new(mesh, order);
-        let ends = [ends(&steepest.down), ends(&steepest.up)];
+        let ends = if limit > 0.0 { [ends(&steepest.down), ends(&steepest.up)] } else { [Vec::new(), Vec::new()] };
         let (mut found, mut pairs) = (Vec::new(), vec![0_u8; units.len()]);
         for upwards in [false, true].into_iter().filter(|_| limit > 0.0) {
             let sweep = if upwards { Sweep::downwards(order) } else { Sweep::upwards(order) };
