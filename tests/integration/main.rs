@@ -18,6 +18,7 @@ mod iterative;
 mod layering;
 mod level_sets;
 mod mesh;
+mod morse;
 mod operators;
 mod ordering;
 mod persistence;
