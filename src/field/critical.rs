@@ -184,7 +184,7 @@ pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> M
             let is_change = u32::from(next == previous);
             let (below, above) = (u32::from(!next | previous), u32::from(next | !previous));
             let state = &mut states[v as usize];
-            *state = (*state + is_change * ONE_CHANGE) | below * SAW_BELOW | above * SAW_ABOVE;
+            *state = (*state + is_change * ONE_CHANGE) | (below * SAW_BELOW) | (above * SAW_ABOVE);
             let near = near | u64::from(1 - is_change) << 63;
             let known = &mut nearest[v as usize];
             *known = near.min(*known);

@@ -50,7 +50,7 @@ describe('the hierarchy over δ', () => {
   });
 
   it('of a constant field is over at the least positive number', () => {
-    const { delta, vanishesAt, minima, maxima } = make(octahedron()).deltaHierarchy(new Float64Array(6));
+    const { delta, vanishesAt, minima, maxima } = make(tetrahedron()).deltaHierarchy(new Float64Array(4));
     expect([...delta]).toEqual([0, Number.MIN_VALUE]);
     expect([...vanishesAt]).toEqual([0, 0]);
     expect([...minima, ...maxima]).toEqual([1, 0, 1, 0]);
