@@ -116,8 +116,6 @@ mesh.levelSets(heat, { saddles: new Uint32Array(2) });
 mesh.levelSets(heat, { saddles: [0, 7] as const });
 // @ts-expect-error all of them, or these
 mesh.levelSets(heat, { saddles: false });
-// @ts-expect-error only saddles have an offset
-mesh.levelSets(heat, { count: 3, offset: 0.1 });
 
 const cut: api.Bands = mesh.bands(heat, { count: 5 });
 mesh.bands(new Float32Array(3), [0.5]);
