@@ -2,7 +2,8 @@
 
 use core::ops::Range;
 
-use super::order::{VertexOrder, sort, value_range};
+use super::order::{VertexOrder, value_range};
+use super::sorting::sort;
 use crate::error::{Error, FieldError, OptionError};
 use crate::mesh::TriMesh;
 
