@@ -140,12 +140,17 @@ impl MorseComplex {
     fn trace(&mut self, flow: &Flow<'_>, saddle: u32, first: u32, passed: &mut [bool]) -> u32 {
         let start = self.vertices.len();
         self.vertices.push(saddle);
-        let mut at = first;
+        let (mut from, mut at) = (first, first);
         let last = loop {
             let vertex = flow.vertex(at);
             // Where cancelled paths lead back over the saddle, the line begins there.
             if vertex == saddle {
                 self.vertices.truncate(start);
+                // What is not drawn must not end other lines.
+                while from != at && !passed.is_empty() {
+                    passed[from as usize] = false;
+                    from = flow.next(from).unwrap_or(at);
+                }
             }
             self.vertices.push(vertex);
             if !passed.is_empty() && core::mem::replace(&mut passed[at as usize], true) {
