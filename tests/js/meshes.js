@@ -46,6 +46,48 @@ export function torus(around = 48, across = 24) {
   return { positions, triangles };
 }
 
+/** A sphere: an octahedron whose triangles are cut into four, again and again. */
+export function sphere(times = 3) {
+  let { positions, triangles } = octahedron();
+  for (let time = 0; time < times; time++) {
+    const middles = new Map();
+    const middle = (a, b) => {
+      const key = a < b ? `${a} ${b}` : `${b} ${a}`;
+      if (!middles.has(key)) {
+        const point = [0, 1, 2].map((axis) => positions[3 * a + axis] + positions[3 * b + axis]);
+        middles.set(key, positions.length / 3);
+        positions.push(...point.map((x) => x / Math.hypot(...point)));
+      }
+      return middles.get(key);
+    };
+    const finer = [];
+    for (let t = 0; t < triangles.length; t += 3) {
+      const [a, b, c] = triangles.slice(t, t + 3);
+      const [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+      finer.push(a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca);
+    }
+    triangles = finer;
+  }
+  return { positions, triangles };
+}
+
+/** Two tetrahedra that have vertex 0 in common and nothing else. */
+export function pinched() {
+  const { positions } = tetrahedron();
+  const triangles = [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2, 0, 4, 5, 0, 6, 4, 0, 5, 6, 4, 6, 5];
+  const other = positions.map((x, k) => 2 * positions[k % 3] - x);
+  return { positions: [...positions, ...other.slice(3)], triangles };
+}
+
+/** A tetrahedron, two vertices of no triangle (4 and 5), an octahedron. */
+export function islands() {
+  const [first, second] = [tetrahedron(), octahedron()];
+  return {
+    positions: [...first.positions, 9, 9, 9, -9, 9, 9, ...second.positions.map((x) => x + 5)],
+    triangles: [...first.triangles, ...second.triangles.map((v) => v + 6)],
+  };
+}
+
 /** A Möbius strip of 2n triangles. */
 export function moebius(n = 8) {
   const positions = [];
