@@ -137,8 +137,55 @@ const { rows, columns, columnPointers, rowIndices, values } = matrix;
 const mass: api.SparseMatrix = mesh.mass({ kind: 'lumped', massScale: 'raw' });
 // @ts-expect-error not built yet
 mesh.laplacian({ weights: 'intrinsicDelaunay' });
-// @ts-expect-error not built yet
-mesh.persistence(heat);
+
+// ------------------------------------------------------------------------------------- persistence and the Morse complex
+const pairs: api.PersistencePairs = mesh.persistence([1, 2, 3]);
+same<api.PersistencePairs['kinds'], Int8Array>(true);
+const { extrema, birth, death, persistence, essentialMinima, essentialMaxima, essentialSaddles } = pairs;
+same<[typeof birth, typeof extrema, typeof essentialSaddles], [Float64Array, Uint32Array, Uint32Array]>(true);
+const curve: api.PersistenceCurve = mesh.persistenceCurve(new Float32Array(3));
+same<[typeof curve.threshold, typeof curve.minima], [Float64Array, Uint32Array]>(true);
+// @ts-expect-error it has no options: the curve has every threshold
+mesh.persistence(heat, { threshold: 0.1 });
+// @ts-expect-error strings are not numbers
+mesh.persistenceCurve(['1', '2', '3']);
+
+const simple: Float64Array = mesh.simplify(heat, { threshold: 0.1 });
+mesh.simplify([1, 2, 3], { threshold: 3, thresholdIs: 'absolute' });
+mesh.simplify(heat, { keep: extrema });
+mesh.simplify(heat, { keep: new Uint16Array(2) });
+mesh.simplify(heat, { keep: [0, 7] as const });
+const toKeep: api.SimplifyOptions = { keep: essentialMinima };
+// @ts-expect-error what to keep has no default
+mesh.simplify(heat);
+// @ts-expect-error nor has the threshold
+mesh.simplify(heat, { thresholdIs: 'relative' });
+// @ts-expect-error one of two
+mesh.simplify(heat, { threshold: 0.1, thresholdIs: 'percent' });
+// @ts-expect-error ids are not signed
+mesh.simplify(heat, { keep: new Int32Array(2) });
+
+const complex: api.MorseComplex = mesh.morseComplex(heat, { persistence: 0.1, paths: 'merged' });
+const morsePolylines: api.Polylines = complex;
+same<[typeof complex.kinds, typeof complex.vertices], [Int8Array, Uint32Array]>(true);
+mesh.morseComplex(heat);
+// @ts-expect-error one of two
+mesh.morseComplex(heat, { paths: 'all' });
+// @ts-expect-error the option is called persistence
+mesh.morseComplex(heat, { threshold: 0.1 });
+
+const morse: api.MorseHierarchy = mesh.morseHierarchy(heat);
+const { cancelledAt, partners, into, arcs } = morse;
+same<[typeof cancelledAt, typeof arcs], [Float64Array, Uint32Array]>(true);
+// @ts-expect-error it has no options: the hierarchy has every threshold
+mesh.morseHierarchy(heat, { persistence: 0.1 });
+
+const basins: api.Basins = mesh.basins(heat, { persistence: 0.1 });
+const { descending, ascending } = basins;
+same<typeof descending, Uint32Array>(true);
+mesh.basins(heat, {});
+// @ts-expect-error only lines have paths
+mesh.basins(heat, { paths: 'merged' });
 
 // ---------------------------------------------------------------------------------------------------------- smoothing
 const smoother = new Smoother(mesh, {
@@ -273,6 +320,7 @@ export const used = [
     refinementSteps,
     iterations,
   ],
+  ...[death, persistence, essentialMaxima, simple, toKeep, morsePolylines, partners, into, ascending],
   ...[short, byLength, remade],
   ...[parts, parents, cuts, cutEdges, cutParameters, vanishesAtAbsolute, steps, minimaAt, maximaAt, saddlesAt],
 ];
