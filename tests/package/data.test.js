@@ -96,6 +96,31 @@ describe.runIf(existsSync(reference))('reference data', () => {
         }
       });
 
+      it('has its pairs of persistence, and no other extrema once it is simplified', () => {
+        const values = valuesOf(field);
+        const found = mesh.persistence(values);
+        const curve = mesh.persistenceCurve(values);
+        const [low, high] = facts.range;
+        for (const [relative, expectedCounts] of Object.entries(facts.persistentPairsAbove)) {
+          const threshold = Number(relative) * (high - low);
+          const above = (kind) => found.kinds.filter((k, i) => k === kind && found.persistence[i] > threshold).length;
+          const minima = above(-1) + found.essentialMinima.length;
+          const maxima = above(1) + found.essentialMaxima.length;
+          expect([minima, maxima], `pairs above ${relative}`).toEqual(expectedCounts);
+          const row = curve.threshold.findLastIndex((from) => from <= threshold);
+          expect([curve.minima[row], curve.maxima[row]], `curve at ${relative}`).toEqual(expectedCounts);
+
+          const simple = mesh.simplify(values, { threshold: Number(relative) });
+          const { counts } = mesh.criticalPoints(simple);
+          expect([counts.minima, counts.maxima], `simplified by ${relative}`).toEqual(expectedCounts);
+          const change = simple.reduce((most, value, v) => Math.max(most, Math.abs(value - values[v])), 0);
+          expect(change, `simplified by ${relative}`).toBeLessThanOrEqual(threshold);
+          if (expected.mesh.boundaryLoops === 0) {
+            expect(counts.minima + counts.maxima - counts.saddles).toBe(expected.mesh.eulerCharacteristic);
+          }
+        }
+      });
+
       it('has its energies', () => {
         const { sobolev, laplacianNorm } = mesh.smoothness(normalised(valuesOf(field)));
         near(sobolev, facts.sobolev, RELATIVE_FACTS, 'sobolev');
