@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Array, Uint32Array};
+use morse_smooth::field::{self, CriticalKind, Keep, PathStyle, ThresholdScale};
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
@@ -30,6 +31,10 @@ fn floats(object: &JsValue, name: &str) -> Vec<f64> {
 
 fn ids(object: &JsValue, name: &str) -> Vec<u32> {
     get(object, name).dyn_into::<Uint32Array>().expect("a Uint32Array").to_vec()
+}
+
+fn int8s(object: &JsValue, name: &str) -> Vec<i8> {
+    get(object, name).dyn_into::<Int8Array>().expect("an Int8Array").to_vec()
 }
 
 fn bytes(object: &JsValue, name: &str) -> Vec<u8> {
@@ -131,9 +136,9 @@ fn critical_points_are_those_of_rust() {
             "{ delta: 0.3, deltaIs: 'absolute', link: 'consecutive', rule: 'literal' }",
             DeltaOptions {
                 delta: 0.3,
-                scale: morse_smooth::field::DeltaScale::Absolute,
+                scale: field::DeltaScale::Absolute,
                 link: LinkReading::Consecutive,
-                rule: morse_smooth::field::ExtremumRule::Literal,
+                rule: field::ExtremumRule::Literal,
             },
         ),
     ] {
@@ -188,6 +193,111 @@ fn level_sets_by_list_and_by_number() {
         assert!(["InvalidArgument", "InvalidOption", "UnknownOption"].contains(&code.as_str()), "{bad}: {code}");
         assert!(!message.contains("JsValue"), "{bad}: {message}");
     }
+}
+
+#[wasm_bindgen_test]
+fn persistence_and_simplification_are_those_of_rust() {
+    let mesh = torus();
+    let (given, f) = (raw(&mesh), noise(mesh.vertex_count()));
+    let diagram = field::persistence(&mesh, &f).expect("a field");
+    let found: JsValue = given.persistence(&array(&f)).ok().expect("a field").into();
+    let pairs = &diagram.pairs;
+    assert!(pairs.len() > 10, "{}", pairs.len());
+    assert_eq!(ids(&found, "extrema"), pairs.iter().map(|p| p.extremum).collect::<Vec<_>>());
+    assert_eq!(ids(&found, "saddles"), pairs.iter().map(|p| p.saddle).collect::<Vec<_>>());
+    let sign = |kind| if kind == CriticalKind::Minimum { -1 } else { 1 };
+    assert_eq!(int8s(&found, "kinds"), pairs.iter().map(|p| sign(p.kind)).collect::<Vec<_>>());
+    assert_eq!(floats(&found, "birth"), pairs.iter().map(|p| p.birth).collect::<Vec<_>>());
+    assert_eq!(floats(&found, "death"), pairs.iter().map(|p| p.death).collect::<Vec<_>>());
+    assert_eq!(floats(&found, "persistence"), pairs.iter().map(|p| p.persistence).collect::<Vec<_>>());
+    assert_eq!(ids(&found, "essentialMinima"), diagram.essential_minima);
+    assert_eq!(ids(&found, "essentialMaxima"), diagram.essential_maxima);
+    assert_eq!(ids(&found, "essentialSaddles"), diagram.essential_saddles);
+    let curve: JsValue = given.persistence_curve(&array(&f)).ok().expect("a field").into();
+    let expected = diagram.curve();
+    assert_eq!(floats(&curve, "threshold"), expected.threshold);
+    assert_eq!((ids(&curve, "minima"), ids(&curve, "maxima")), (expected.minima, expected.maxima));
+
+    let (relative, absolute) = (ThresholdScale::Relative, ThresholdScale::Absolute);
+    let kept = [diagram.essential_minima[0], diagram.essential_maxima[0], pairs[0].extremum];
+    for (text, keep) in [
+        ("{ threshold: 0.2 }".to_owned(), Keep::Above { threshold: 0.2, scale: relative }),
+        (
+            "{ threshold: 0.2, thresholdIs: 'absolute', keep: null }".to_owned(),
+            Keep::Above { threshold: 0.2, scale: absolute },
+        ),
+        (format!("{{ keep: new Uint32Array({kept:?}) }}"), Keep::Extrema(&kept)),
+    ] {
+        let simple = given.simplify(&array(&f), &js(&text)).ok().expect("a field").to_vec();
+        assert_eq!(simple, field::simplify(&mesh, &f, keep).expect("a field"), "{text}");
+    }
+    for (text, code, name) in [
+        ("undefined", "InvalidOption", "threshold"),
+        ("{ threshold: -1 }", "InvalidOption", "threshold"),
+        ("{ threshold: NaN }", "InvalidOption", "threshold"),
+        ("{ threshold: '1' }", "InvalidOption", "threshold"),
+        ("{ threshold: 1, thresholdIs: 'other' }", "InvalidOption", "thresholdIs"),
+        ("{ keep: 5 }", "InvalidOption", "keep"),
+        ("{ keep: new Uint32Array(1), threshold: 1 }", "InapplicableOption", "threshold"),
+        ("{ keep: new Uint32Array(1), thresholdIs: 'relative' }", "InapplicableOption", "thresholdIs"),
+        ("{ delta: 1 }", "UnknownOption", "delta"),
+    ] {
+        let (found, message, detail) = thrown(given.simplify(&array(&f), &js(text)));
+        assert_eq!((found.as_str(), get(&detail, "option").as_string().as_deref()), (code, Some(name)), "{message}");
+    }
+    for (text, code) in [
+        (format!("{{ keep: new Uint32Array([{}]) }}", kept[0]), "Unconstrained"),
+        (format!("{{ keep: new Uint32Array([{}]) }}", pairs[0].saddle), "NotAnExtremum"),
+        ("{ keep: new Uint32Array([108]) }".to_owned(), "IndexOutOfBounds"),
+    ] {
+        assert_eq!(thrown(given.simplify(&array(&f), &js(&text))).0, code, "{text}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn the_morse_complex_is_that_of_rust() {
+    let mesh = torus();
+    let (given, f) = (raw(&mesh), noise(mesh.vertex_count()));
+    let sign = |kind| match kind {
+        CriticalKind::Minimum => -1,
+        CriticalKind::Saddle => 0,
+        CriticalKind::Maximum => 1,
+    };
+    for (text, persistence, style) in
+        [("undefined", 0.0, PathStyle::Whole), ("{ persistence: 0.2, paths: 'merged' }", 0.2, PathStyle::Merged)]
+    {
+        let expected = field::morse_complex(&mesh, &f, persistence, style).expect("a field");
+        let found: JsValue = given.morse_complex(&array(&f), &js(text)).ok().expect("a field").into();
+        let points: Vec<f64> = expected.vertices.iter().flat_map(|&v| mesh.position(v)).collect();
+        assert_eq!(floats(&found, "points"), points);
+        assert_eq!(int8s(&found, "kinds"), expected.kinds.iter().map(|&kind| sign(kind)).collect::<Vec<_>>());
+        assert_eq!((ids(&found, "offsets"), ids(&found, "vertices")), (expected.offsets, expected.vertices));
+        assert_eq!((ids(&found, "saddles"), ids(&found, "extrema")), (expected.saddles, expected.extrema));
+    }
+    let hierarchy = field::morse_hierarchy(&mesh, &f).expect("a field");
+    let found: JsValue = given.morse_hierarchy(&array(&f)).ok().expect("a field").into();
+    let nodes = &hierarchy.nodes;
+    assert_eq!(ids(&found, "vertices"), nodes.iter().map(|node| node.vertex).collect::<Vec<_>>());
+    assert_eq!(int8s(&found, "kinds"), nodes.iter().map(|node| sign(node.kind)).collect::<Vec<_>>());
+    assert_eq!(floats(&found, "cancelledAt"), nodes.iter().map(|node| node.cancelled_at).collect::<Vec<_>>());
+    assert_eq!(ids(&found, "partners"), nodes.iter().map(|node| node.partner).collect::<Vec<_>>());
+    assert_eq!(ids(&found, "into"), nodes.iter().map(|node| node.into).collect::<Vec<_>>());
+    assert_eq!(ids(&found, "arcs"), hierarchy.arcs.as_flattened());
+    for (text, persistence) in [("undefined", 0.0), ("{ persistence: 0.2 }", 0.2)] {
+        let expected = field::basins(&mesh, &f, persistence).expect("a field");
+        let found: JsValue = given.basins(&array(&f), &js(text)).ok().expect("a field").into();
+        assert_eq!((ids(&found, "descending"), ids(&found, "ascending")), (expected.descending, expected.ascending));
+    }
+    for (text, code) in [
+        ("{ persistence: -1 }", "InvalidOption"),
+        ("{ persistence: 'much' }", "InvalidOption"),
+        ("{ threshold: 1 }", "UnknownOption"),
+        ("5", "InvalidArgument"),
+    ] {
+        assert_eq!(thrown(given.morse_complex(&array(&f), &js(text))).0, code, "{text}");
+        assert_eq!(thrown(given.basins(&array(&f), &js(text))).0, code, "{text}");
+    }
+    assert_eq!(thrown(given.morse_complex(&array(&f), &js("{ paths: 'short' }"))).0, "InvalidOption");
 }
 
 #[wasm_bindgen_test]
