@@ -1,4 +1,4 @@
-// The README shows the example that is there, and it runs.
+// The README shows the example that is there, and it runs; so does the other one.
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -6,6 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { expect, it } from 'vitest';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
+const run = (name) => execFileSync(process.execPath, [join('examples', name)], { cwd: root, encoding: 'utf8' });
 const read = (...parts) => readFileSync(join(root, ...parts), 'utf8').replaceAll('\r\n', '\n');
 
 it('shows twelve lines of JavaScript that run', () => {
@@ -14,6 +15,12 @@ it('shows twelve lines of JavaScript that run', () => {
   expect(blocks).toEqual([example]);
   expect(example.trimEnd().split('\n')).toHaveLength(12);
 
-  const output = execFileSync(process.execPath, [join('examples', 'smooth.mjs')], { cwd: root, encoding: 'utf8' });
-  expect(output).toMatch(/^minima 571 → 2, maxima 574 → 1\n/);
+  expect(run('smooth.mjs')).toMatch(/^minima 571 → 2, maxima 574 → 1\n/);
+});
+
+it('simplifies a torus with noise to that of the textbook', () => {
+  const lines = run('simplify.mjs').trimEnd().split('\n');
+  expect(lines[0]).toBe('571 minima, 574 maxima, 1145 saddles');
+  expect(lines[2]).toBe('1 minimum, 1 maximum, 2 saddles');
+  expect(lines.at(-1)).toBe('8 lines of the Morse complex');
 });
