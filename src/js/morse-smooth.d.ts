@@ -236,7 +236,8 @@ export class TriMesh {
    * A field near the given one that has no other extrema than those of persistence above the threshold (`thresholdIs`:
    * `"relative"` to the range, the default, or `"absolute"`), or than those in `keep`. With a threshold no value changes by more
    * than it. Regions that become flat are tilted by the smallest steps that numbers have, so that the extrema by
-   * (value, vertex number) are exactly the wanted ones; this is checked before the result is returned.
+   * (value, vertex number) are exactly the wanted ones; this is checked before the result is returned. (Where a pair is exactly as
+   * persistent as the threshold, these steps may come on top of it.)
    *
    * @throws `NotAnExtremum` (`vertex`) for a vertex in `keep`; `Unconstrained` (`component`) where `keep` has no minimum or no
    *   maximum in a component; `UnavoidableExtremum` (`vertex`) where the mesh hangs together in a single vertex and has no room for
@@ -424,7 +425,9 @@ export interface PersistenceCurve {
 }
 
 /** What {@link TriMesh.simplify} is to keep. */
-export type SimplifyOptions = { threshold: number; thresholdIs?: 'relative' | 'absolute' } | { keep: Ids };
+export type SimplifyOptions =
+  | { threshold: number; thresholdIs?: 'relative' | 'absolute'; keep?: undefined }
+  | { keep: Ids; threshold?: undefined; thresholdIs?: undefined };
 
 /** See {@link TriMesh.morseComplex}. */
 export interface MorseComplexOptions {
@@ -447,8 +450,8 @@ export interface MorseComplex extends Polylines {
 }
 
 /**
- * See {@link TriMesh.morseHierarchy}. A saddle of multiplicity k stands for k simple ones, each a node of its own. At a threshold t
- * the complex has the nodes with `cancelledAt` above t; an arc leads from its saddle to its extremum or, where that is
+ * See {@link TriMesh.morseHierarchy}. A saddle of multiplicity k stands for k simple ones, each a node of its own. At a threshold
+ * t > 0 the complex has the nodes with `cancelledAt` above t, and at 0 all of them; an arc leads from its saddle to its extremum or, where that is
  * cancelled, to where `into` leads from there.
  */
 export interface MorseHierarchy {

@@ -10,6 +10,8 @@ pub(super) struct Flow<'a> {
     vertices: usize,
     /// The vertex of every simple saddle.
     saddles: &'a [u32],
+    /// Vertices that cancelled paths lead over: only there can a path come back to where it began.
+    crossed: Vec<bool>,
 }
 
 impl<'a> Flow<'a> {
@@ -17,7 +19,7 @@ impl<'a> Flow<'a> {
     pub(super) fn new(mut steepest: Vec<u32>, saddles: &'a [u32]) -> Self {
         let vertices = steepest.len();
         steepest.extend((vertices as u32..).take(saddles.len()));
-        Self { next: steepest, vertices, saddles }
+        Self { next: steepest, vertices, saddles, crossed: vec![false; vertices] }
     }
 
     /// Cancels an extremum with a simple saddle: what flowed to the extremum now goes back along the path that came down (or
@@ -26,7 +28,9 @@ impl<'a> Flow<'a> {
     pub(super) fn cancel(&mut self, unit: u32, here: u32, beyond: u32) {
         let saddle = self.vertices as u32 + unit;
         let (mut before, mut at) = (saddle, here);
+        self.cross(saddle);
         loop {
+            self.cross(at);
             let next = core::mem::replace(&mut self.next[at as usize], before);
             if next == at {
                 break;
@@ -34,6 +38,26 @@ impl<'a> Flow<'a> {
             (before, at) = (at, next);
         }
         self.next[saddle as usize] = beyond;
+    }
+
+    fn cross(&mut self, at: u32) {
+        let vertex = self.vertex(at);
+        self.crossed[vertex as usize] = true;
+    }
+
+    /// Where the path from a saddle begins whose first vertex was `first`: behind the place where it last comes back over the
+    /// saddle, if it does.
+    pub(super) fn beginning(&self, saddle: u32, first: u32) -> u32 {
+        let (mut begin, mut at) = (first, first);
+        if self.crossed[saddle as usize] {
+            while let Some(next) = self.next(at) {
+                if self.vertex(at) == saddle {
+                    begin = next;
+                }
+                at = next;
+            }
+        }
+        begin
     }
 
     /// The entry after `at`; `None` at an extremum.

@@ -82,7 +82,10 @@ pub fn morse_complex(
         while unit < units.len() && units.vertices[unit] == vertex {
             for (side, paths) in [units.down[unit], units.up[unit]].into_iter().enumerate() {
                 for first in paths.into_iter().filter(|&first| alive[unit] && first != NONE) {
-                    if !starts[side][already[side]..].contains(&(vertex, first)) {
+                    // Either the first one or the last is what two neighbours have in common.
+                    let known = &starts[side][already[side]..];
+                    let start = Some(&(vertex, first));
+                    if known.first() != start && known.last() != start {
                         starts[side].push((vertex, first));
                     }
                 }
@@ -98,7 +101,7 @@ pub fn morse_complex(
         let mut passed = vec![false; if merged { flow.len() } else { 0 }];
         let ends = if merged { flow.ends() } else { Vec::new() };
         for &(saddle, first) in &starts[side] {
-            let last = complex.trace(flow, saddle, first, &mut passed);
+            let last = complex.trace(flow, saddle, flow.beginning(saddle, first), &mut passed);
             complex.saddles.push(saddle);
             complex.extrema.push(if merged { ends[first as usize] } else { last });
             complex.kinds.push(kind);
@@ -137,31 +140,20 @@ impl MorseComplex {
     }
 
     /// Adds a line and returns its last vertex.
-    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, first: u32, passed: &mut [bool]) -> u32 {
-        let start = self.vertices.len();
+    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, begin: u32, passed: &mut [bool]) -> u32 {
         self.vertices.push(saddle);
-        let (mut from, mut at) = (first, first);
+        let mut at = begin;
         let last = loop {
-            let vertex = flow.vertex(at);
-            // Where cancelled paths lead back over the saddle, the line begins there.
-            if vertex == saddle {
-                self.vertices.truncate(start);
-                // What is not drawn must not end other lines.
-                while from != at && !passed.is_empty() {
-                    passed[from as usize] = false;
-                    from = flow.next(from).unwrap_or(at);
-                }
-            }
-            self.vertices.push(vertex);
+            self.vertices.push(flow.vertex(at));
             if !passed.is_empty() && core::mem::replace(&mut passed[at as usize], true) {
-                break vertex;
+                break at;
             }
             match flow.next(at) {
                 Some(next) => at = next,
-                None => break vertex,
+                None => break at,
             }
         };
         self.offsets.push(self.vertices.len() as u32);
-        last
+        flow.vertex(last)
     }
 }
