@@ -1,5 +1,5 @@
 /** From the package's double-precision arrays to what the graphics card wants. No mathematics of fields here. */
-import type { LevelSets, TriMesh } from 'morse-smooth';
+import type { LevelSets, MorseComplex, Polylines, TriMesh } from 'morse-smooth';
 import type { DisplayMesh } from './protocol';
 
 /** Moves the bounding box's middle to the origin and the farthest vertex to distance 1. */
@@ -93,23 +93,48 @@ export function shadesOf(values: Float64Array, [low, high]: [number, number]): F
 
 /** Pairs of points, six numbers a segment. */
 export function segmentsOf(lines: LevelSets, placement: Placement): Float32Array<ArrayBuffer> {
+  return segments(
+    lines,
+    placement,
+    () => true,
+    (k) => lines.closed[k] === 1,
+  );
+}
+
+/** The lines of one direction, in the same form. */
+export function pathsOf(complex: MorseComplex, kind: -1 | 1, placement: Placement): Float32Array<ArrayBuffer> {
+  return segments(
+    complex,
+    placement,
+    (k) => complex.kinds[k] === kind,
+    () => false,
+  );
+}
+
+function segments(
+  lines: Polylines,
+  placement: Placement,
+  isWanted: (line: number) => boolean,
+  isClosed: (line: number) => boolean,
+): Float32Array<ArrayBuffer> {
   const points = place(lines.points, placement);
   const count = lines.offsets.length - 1;
   let total = 0;
   for (let k = 0; k < count; k++)
-    total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (lines.closed[k] ? 1 : 0);
-  const segments = new Float32Array(6 * total);
+    total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (isClosed(k) ? 1 : 0);
+  const joined = new Float32Array(6 * total);
   let at = 0;
   const add = (from: number, to: number): void => {
-    segments.set(points.subarray(3 * from, 3 * from + 3), at);
-    segments.set(points.subarray(3 * to, 3 * to + 3), at + 3);
+    joined.set(points.subarray(3 * from, 3 * from + 3), at);
+    joined.set(points.subarray(3 * to, 3 * to + 3), at + 3);
     at += 6;
   };
   for (let k = 0; k < count; k++) {
+    if (!isWanted(k)) continue;
     const first = lines.offsets[k]!;
     const last = lines.offsets[k + 1]! - 1;
     for (let i = first; i < last; i++) add(i, i + 1);
-    if (lines.closed[k] && last > first) add(last, first);
+    if (isClosed(k) && last > first) add(last, first);
   }
-  return segments.slice(0, at);
+  return joined.slice(0, at);
 }

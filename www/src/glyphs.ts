@@ -50,12 +50,19 @@ export class GlyphLayer {
     { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }
   >();
 
-  constructor() {
+  /** `rim`: the colour around the glyphs. `ghost`: they shine through what is before them. */
+  constructor({ rim = RIM, ghost = false }: { rim?: number; ghost?: boolean } = {}) {
+    const see = ghost ? { transparent: true, opacity: 0.35, depthTest: false } : {};
     for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {
       this.solids.set(kind, {
         geometry: SHAPES[kind](),
-        body: new MeshLambertMaterial({ color: COLOURS[kind], emissive: COLOURS[kind], emissiveIntensity: 0.35 }),
-        rim: new MeshBasicMaterial({ color: RIM, side: BackSide }),
+        body: new MeshLambertMaterial({
+          color: COLOURS[kind],
+          emissive: COLOURS[kind],
+          emissiveIntensity: 0.35,
+          ...see,
+        }),
+        rim: new MeshBasicMaterial({ color: rim, side: BackSide, ...see }),
       });
     }
   }
