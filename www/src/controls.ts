@@ -19,7 +19,7 @@ const ORIGINS: readonly [FieldEntry['origin'], string][] = [
 ];
 
 /** All settings but those that are made in the persistence diagram. */
-export type Choices = Omit<Settings, 'overrides'>;
+export type Choices = Omit<Settings, 'overrides' | 'paths'>;
 
 export interface ControlEvents {
   settings(): void;
@@ -132,6 +132,13 @@ export class Controls {
     this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
     this.epsilon.value = String(Math.log10(epsilon));
     this.epsilon.setAttribute('aria-valuetext', this.epsilonNumber.value);
+  }
+
+  /** As far as the curve goes: beyond it nothing changes. */
+  setDeltaEnd(end: number): void {
+    this.delta.max = String(end);
+    this.delta.step = String(end / 100);
+    this.delta.value = this.deltaNumber.value;
   }
 
   writeDelta(value: number): void {

@@ -29,10 +29,10 @@ export function placementOf(positions: Float64Array): Placement {
 }
 
 /** Subtracting the centre in double precision keeps far-away coordinates (maps in metres) from jittering in single. */
-function place(points: Float64Array, { centre, scale }: Placement): Float32Array<ArrayBuffer> {
-  const placed = new Float32Array(points.length);
-  for (let i = 0; i < points.length; i++) placed[i] = (points[i]! - centre[i % 3]!) * scale;
-  return placed;
+export function placed(points: Float64Array, { centre, scale }: Placement): Float32Array<ArrayBuffer> {
+  const moved = new Float32Array(points.length);
+  for (let i = 0; i < points.length; i++) moved[i] = (points[i]! - centre[i % 3]!) * scale;
+  return moved;
 }
 
 /** Things that are thin along z (terrain, plates) are looked at from above; everything else stands on y. */
@@ -63,12 +63,12 @@ function facesInwards(positions: Float32Array, triangles: Uint32Array): boolean 
 }
 
 export function displayMesh(mesh: TriMesh, positions: Float64Array, placement: Placement): DisplayMesh {
-  const placed = place(positions, placement);
+  const moved = placed(positions, placement);
   const triangles = new Uint32Array(mesh.triangles());
-  if (facesInwards(placed, triangles)) {
+  if (facesInwards(moved, triangles)) {
     for (let t = 0; t < triangles.length; t += 3) triangles.subarray(t, t + 2).reverse();
   }
-  return { positions: placed, triangles, area: mesh.area * placement.scale ** 2, up: upOf(placed) };
+  return { positions: moved, triangles, area: mesh.area * placement.scale ** 2, up: upOf(moved) };
 }
 
 export function rangeOf(values: Float64Array): [number, number] {
@@ -117,7 +117,7 @@ function segments(
   isWanted: (line: number) => boolean,
   isClosed: (line: number) => boolean,
 ): Float32Array<ArrayBuffer> {
-  const points = place(lines.points, placement);
+  const points = placed(lines.points, placement);
   const count = lines.offsets.length - 1;
   let total = 0;
   for (let k = 0; k < count; k++)

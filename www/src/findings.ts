@@ -1,6 +1,6 @@
 /** What the worker finds out about a field, as the parts that the page is sent. No state: session.ts knows what is due. */
 import type { MorseComplex, PersistencePairs, TriMesh } from 'morse-smooth';
-import { pathsOf, rangeOf, segmentsOf } from './display';
+import { pathsOf, placed, rangeOf, segmentsOf } from './display';
 import type { Placement } from './display';
 import type { Pairs, Part, Settings, Side } from './protocol';
 import { keptPairs } from './reading/pairs';
@@ -109,5 +109,24 @@ export function complexPart(
     side,
     descending: pathsOf(complex, -1, placement),
     ascending: pathsOf(complex, 1, placement),
+  };
+}
+
+/** Whole lines take room: on a mesh of more vertices none are sent, and pairs are lit without the way between them. */
+const MOST_VERTICES = 300_000;
+
+export function arcsPart(mesh: TriMesh, values: Float64Array, placement: Placement): Part {
+  const isTooLarge = mesh.vertexCount > MOST_VERTICES;
+  const complex = isTooLarge ? null : mesh.morseComplex(values);
+  return {
+    kind: 'arcs',
+    arcs: {
+      points: placed(complex?.points ?? new Float64Array(0), placement),
+      offsets: new Uint32Array(complex?.offsets ?? [0]),
+      saddles: new Uint32Array(complex?.saddles ?? []),
+      extrema: new Uint32Array(complex?.extrema ?? []),
+      kinds: new Int8Array(complex?.kinds ?? []),
+      heights: Float64Array.from(complex?.saddles ?? [], (vertex) => values[vertex]!),
+    },
   };
 }

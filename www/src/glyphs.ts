@@ -7,6 +7,7 @@ import {
   BackSide,
   BoxGeometry,
   BufferGeometry,
+  GreaterDepth,
   Group,
   IcosahedronGeometry,
   InstancedMesh,
@@ -50,9 +51,10 @@ export class GlyphLayer {
     { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }
   >();
 
-  /** `rim`: the colour around the glyphs. `ghost`: they shine through what is before them. */
-  constructor({ rim = RIM, ghost = false }: { rim?: number; ghost?: boolean } = {}) {
-    const see = ghost ? { transparent: true, opacity: 0.35, depthTest: false } : {};
+  /** `rim`: the colour around the glyphs. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
+  constructor({ rim = RIM, ghost = false, late = false }: { rim?: number; ghost?: boolean; late?: boolean } = {}) {
+    const hidden = { transparent: true, opacity: 0.4, depthFunc: GreaterDepth, depthWrite: false };
+    const see = ghost ? hidden : { transparent: late };
     for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {
       this.solids.set(kind, {
         geometry: SHAPES[kind](),

@@ -11,6 +11,7 @@ import { Legend } from './legend';
 import { Panel } from './panel';
 import type { MeshSummary, Part, Request, Settings } from './protocol';
 import { NO_OVERRIDES } from './reading/pairs';
+import { Paths } from './reading/paths';
 import { Reading } from './reading/reading';
 import type { Lit } from './reading/reading';
 import { clearReport, showMesh, showReport } from './readout';
@@ -31,6 +32,7 @@ const INITIAL: Settings = {
   overrides: NO_OVERRIDES,
   colouring: 'value',
   complex: false,
+  paths: false,
 };
 
 /** What was opened last, kept so that it can be given to a new worker. */
@@ -50,6 +52,9 @@ let source: Source | null = null;
 let offered: Source | null = null;
 let shown: MeshSummary | null = null;
 let accepted: Settings = INITIAL;
+let lit: Lit | null = null;
+let wantsPaths = false;
+let paths: Paths | null = null;
 /** Colours by value: the map, in bands between the levels or not, over the range of the field before. */
 let map: ColormapName = 'viridis';
 let banded = false;
@@ -83,6 +88,7 @@ const reading = new Reading({
     controls.writeDelta(value);
     controls.changeDelta();
   },
+  deltaEnd: (value) => controls.setDeltaEnd(value),
   threshold: (value) => {
     controls.writePersistence(value);
     controls.changePersistence();
@@ -120,7 +126,7 @@ const client = new Client({
 });
 
 function readSettings(): Settings {
-  return { ...controls.read(), overrides: reading.overrides };
+  return { ...controls.read(), overrides: reading.overrides, paths: wantsPaths };
 }
 
 function writeSettings(settings: Settings): void {
@@ -178,6 +184,9 @@ function show(part: Part): void {
       return;
     case 'complex':
       return panels[part.side].viewer?.setComplex(part.descending, part.ascending);
+    case 'arcs':
+      paths = new Paths(part.arcs);
+      return light(lit);
     case 'basins':
       basins[part.side] = part.count;
       panels[part.side].viewer?.setBasins(basinColours(part.colours));
@@ -205,6 +214,7 @@ function showValues({ side, label, range, shades }: Extract<Part, { kind: 'value
   panels[side].setShades(label, shades);
   if (side === 'after') return;
   valueRange = range;
+  paths = null;
   legend.setRange(label, range);
   // The field is another one: what stands on the other side belongs to the last.
   panels.after.clear('Smoothing…');
@@ -252,7 +262,7 @@ async function openExample(example: Example): Promise<void> {
     const file = await fetchExample(example);
     if (mine !== choice) return;
     const { field, epsilon, levels } = example;
-    writeSettings({ ...controls.read(), epsilon, levels, delta: 0, overrides: NO_OVERRIDES });
+    writeSettings({ ...readSettings(), epsilon, levels, delta: 0, overrides: NO_OVERRIDES });
     offered = { file, example, added: [] };
     open(offered, { ...readSettings(), field });
   } catch (error) {
@@ -266,14 +276,14 @@ function openFiles(files: File[]): void {
   if (mesh) {
     choice += 1;
     offered = { file: mesh, example: null, added: [] };
-    writeSettings({ ...controls.read(), delta: 0, overrides: NO_OVERRIDES });
+    writeSettings({ ...readSettings(), delta: 0, overrides: NO_OVERRIDES });
     open(offered, { ...readSettings(), field: '' });
   }
   for (const file of files) if (isFieldName(file.name)) addField(file);
 }
 
 function addField(file: File): void {
-  ask({ kind: 'addField', file, settings: { ...controls.read(), overrides: NO_OVERRIDES } });
+  ask({ kind: 'addField', file, settings: { ...readSettings(), overrides: NO_OVERRIDES } });
 }
 
 /** A worker that computes cannot listen: ending it is the only way to make it stop. */
@@ -318,8 +328,8 @@ function paint(): void {
 /** What the colours mean, where they are not those of the bar. */
 function nameColours(): void {
   const { colouring } = controls.read();
-  const counts = `${whole(basins.before)} before, ${whole(basins.after)} after`;
-  legend.setBasins(colouring === 'value' ? null : `basins of ${colouring}, ${counts}`);
+  const counts = `${whole(basins.before)} → ${whole(basins.after)}`;
+  legend.setBasins(colouring === 'value' ? null : `${counts} basins of ${colouring}`);
 }
 
 /** At once: the page knows the critical points of every δ. */
@@ -328,8 +338,14 @@ function showDelta(delta: number): void {
   for (const panel of Object.values(panels)) panel.setDelta(delta);
 }
 
+/** The ways between pairs are asked for when somebody first points at one. */
 function light(pair: Lit | null): void {
-  for (const panel of Object.values(panels)) panel.setLit(pair);
+  lit = pair;
+  const path = pair ? paths?.between(pair) : undefined;
+  for (const panel of Object.values(panels)) panel.setLit(pair, path);
+  if (!pair || wantsPaths) return;
+  wantsPaths = true;
+  update();
 }
 
 function resetView(): void {

@@ -6,18 +6,19 @@ import type { DisplayMesh } from './protocol';
 import type { Lit } from './reading/reading';
 
 const BRIGHT = 0xffd21f;
-const RADIUS = 0.034;
+const RADIUS = 0.03;
 
 export class Marker {
   readonly group = new Group();
-  private readonly glyphs = new GlyphLayer({ rim: BRIGHT });
+  private readonly glyphs = new GlyphLayer({ rim: BRIGHT, late: true });
   /** What lies behind the surface is still seen, faintly. */
   private readonly ghosts = new GlyphLayer({ rim: BRIGHT, ghost: true });
   private readonly path = new CurveLayer({ colour: BRIGHT, width: 4, casing: 0x10151f });
 
   constructor() {
     this.group.add(this.ghosts.group, this.glyphs.group, this.path.group);
-    this.ghosts.group.renderOrder = 5;
+    this.ghosts.group.renderOrder = 1;
+    this.glyphs.group.renderOrder = 2;
   }
 
   clear(): void {

@@ -58,6 +58,7 @@ export class Panel {
   setLit(pair: Lit | null, path?: Float32Array): void {
     if (pair && !this.awaiting) this.root.dataset['lit'] = `${pair.extremum} ${pair.saddle}`;
     else delete this.root.dataset['lit'];
+    this.root.dataset['path'] = String((path?.length ?? 0) / 6);
     this.viewer?.setLit(pair, path);
   }
 

@@ -38,6 +38,8 @@ export interface Settings {
   colouring: Colouring;
   /** Whether the Morse complex is shown, and so has to be computed. */
   complex: boolean;
+  /** Whether a pair was ever pointed at, so that the ways between pairs are wanted. */
+  paths: boolean;
 }
 
 /** What became of the field; null where the method has no such number. */
@@ -79,6 +81,18 @@ export interface Pairs {
   /** −1 minimum, 0 saddle, 1 maximum. */
   essentialKinds: Int8Array<ArrayBuffer>;
   essentialValues: Float64Array<ArrayBuffer>;
+}
+
+/** The lines of the Morse complex, whole, each with its two ends. */
+export interface Arcs {
+  points: Float32Array<ArrayBuffer>;
+  offsets: Uint32Array<ArrayBuffer>;
+  saddles: Uint32Array<ArrayBuffer>;
+  extrema: Uint32Array<ArrayBuffer>;
+  /** −1 to a minimum, 1 to a maximum. */
+  kinds: Int8Array<ArrayBuffer>;
+  /** The value at the saddle of each line. */
+  heights: Float64Array<ArrayBuffer>;
 }
 
 export interface FieldEntry {
@@ -129,6 +143,8 @@ export type Part =
   | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
   | { kind: 'lines'; side: Side; segments: Float32Array<ArrayBuffer>; levels: number[] }
   | { kind: 'complex'; side: Side; descending: Float32Array<ArrayBuffer>; ascending: Float32Array<ArrayBuffer> }
+  /** Of the field before. */
+  | { kind: 'arcs'; arcs: Arcs }
   /** `colours`: for each vertex the number of a colour; 255 where it belongs to no basin. */
   | { kind: 'basins'; side: Side; colours: Uint8Array<ArrayBuffer>; count: number }
   | { kind: 'report'; report: AfterReport }

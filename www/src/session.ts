@@ -10,7 +10,7 @@ import { colourBasins } from './basins';
 import { displayMesh, placementOf, rangeOf, shadesOf } from './display';
 import type { Placement } from './display';
 import { Refusal } from './failure';
-import { complexPart, hierarchyPart, keptExtrema, levelLines, linesPart, pairsPart } from './findings';
+import { arcsPart, complexPart, hierarchyPart, keptExtrema, levelLines, linesPart, pairsPart } from './findings';
 import type { AfterReport, FieldEntry, Part, Settings, Side } from './protocol';
 import { hasOverrides, keptPairs } from './reading/pairs';
 
@@ -165,6 +165,8 @@ export class Session {
       basinColours = byExtremum;
       parts.push(part);
     }
+
+    if (wanted.paths && isDue('before.arcs', field)) parts.push(arcsPart(this.mesh, values, this.placement));
 
     announce?.();
     if (keys.some(([slot]) => slot === 'values')) {

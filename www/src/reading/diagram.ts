@@ -1,7 +1,7 @@
 /** The persistence diagram: a dot for each pair, what has no partner at the upper edge, and the threshold as a line. */
 import uPlot from 'uplot';
 import { short } from '../dom';
-import { ACCENT, axis, INK, MAXIMUM, MINIMUM, plotIn, pointIn, SOFT } from './plot';
+import { ACCENT, axis, FAMILY, INK, MAXIMUM, MINIMUM, plotIn, pointIn, SOFT } from './plot';
 import type { Selection } from './selection';
 
 /** More dots than this cover each other, and the least persistent ones lie on the diagonal. */
@@ -31,7 +31,7 @@ export class Diagram {
     const reach = (above: number) => (): [number, number] => {
       const [low] = selection.range;
       const width = selection.width || 1;
-      return [low - 0.04 * width, low + above * width];
+      return [low - 0.05 * width, low + above * width];
     };
     const values = (_plot: uPlot, splits: number[]): string[] => splits.map(short);
     this.plot = plotIn(box, {
@@ -107,11 +107,11 @@ export class Diagram {
     const step = this.selection.threshold * width;
     line([low - width, low - width + step], [high + width, high + width + step], ACCENT, 1.75, [7, 4]);
     const edge = this.edge;
-    line([low - width, edge], [high + width, edge], '#c3cad8', 1, [2, 3]);
+    line([low, edge], [high + width, edge], '#c3cad8', 1, [2, 3]);
     ctx.fillStyle = SOFT;
-    ctx.font = `${13 * ratio}px sans-serif`;
+    ctx.font = `${14 * ratio}px ${FAMILY}`;
     ctx.textBaseline = 'middle';
-    ctx.fillText('∞', this.plot.bbox.left + 3 * ratio, this.y(edge) - 7 * ratio);
+    ctx.fillText('∞', this.plot.bbox.left + 2 * ratio, this.y(edge));
   }
 
   private drawPair(pair: number): void {

@@ -8,9 +8,10 @@ export const MINIMUM = '#2f6bff';
 export const MAXIMUM = '#e5263c';
 export const SADDLE = '#5b6678';
 export const ACCENT = '#1f4fc4';
-const GRID = '#e8ecf3';
-const FONT =
-  "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', 'Noto Sans', 'DejaVu Sans', sans-serif";
+export const GRID = '#e8ecf3';
+export const FAMILY =
+  "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', 'Noto Sans', 'DejaVu Sans', sans-serif";
+const FONT = `12px ${FAMILY}`;
 
 export function axis(label: string, more: uPlot.Axis): uPlot.Axis {
   return {

@@ -5,7 +5,6 @@ import { Curve } from './curve';
 import { Diagram, MOST } from './diagram';
 import { Selection } from './selection';
 import { countsAt } from './steps';
-import type { Counts } from './steps';
 
 /** A pair of critical points, to be shown on the surface. */
 export interface Lit {
@@ -17,6 +16,8 @@ export interface Lit {
 
 export interface ReadingEvents {
   delta(value: number): void;
+  /** How far δ is of interest. */
+  deltaEnd(value: number): void;
   threshold(value: number): void;
   /** Some pair was decided about, or all decisions were taken back. */
   overrides(overrides: Overrides): void;
@@ -38,6 +39,7 @@ export class Reading {
   constructor(private readonly events: ReadingEvents) {
     this.curve = new Curve(element('#curve', HTMLElement), {
       delta: (value) => events.delta(value),
+      end: (value) => events.deltaEnd(value),
       hover: (value) => this.describeCounts(value ?? this.delta),
     });
     this.diagram = new Diagram(element('#diagram', HTMLElement), this.selection, {
@@ -111,12 +113,29 @@ export class Reading {
   }
 
   private describeCounts(delta: number): void {
-    const of = (side: Side): string => {
-      const hierarchy = this.hierarchies[side];
-      return hierarchy ? `${side} ${inWords(countsAt(hierarchy, delta))}` : '';
+    const { before, after } = this.hierarchies;
+    if (!before) {
+      this.curveText.textContent = '–';
+      return;
+    }
+    const { minima, maxima, saddles } = countsAt(before, delta);
+    const left = after ? countsAt(after, delta) : null;
+    const change = (from: number, to: number | undefined): string =>
+      to === undefined ? whole(from) : `${whole(from)} → ${whole(to)}`;
+    const item = (kind: string, what: string): HTMLElement => {
+      const span = document.createElement('span');
+      span.className = `of-${kind}`;
+      span.textContent = what;
+      return span;
     };
-    const sides = [of('before'), of('after')].filter(Boolean);
-    this.curveText.textContent = sides.length > 0 ? `δ = ${short(delta)}: ${sides.join('; ')}` : '–';
+    this.curveText.replaceChildren(
+      `δ = ${short(delta)}: `,
+      item('minimum', `${change(minima, left?.minima)} minima`),
+      ', ',
+      item('maximum', `${change(maxima, left?.maxima)} maxima`),
+      ', ',
+      item('saddle', `${change(saddles, left?.saddles)} saddles`),
+    );
   }
 
   private describePair(): void {
@@ -137,15 +156,11 @@ export class Reading {
     const [first, second] = isMinimum ? [pairs.birth, pairs.death] : [pairs.death, pairs.birth];
     const share = selection.width > 0 ? pairs.persistence[pair]! / selection.width : 0;
     this.pairText.textContent =
-      `${isMinimum ? 'Minimum' : 'Maximum'} ${pairs.extrema[pair]} at ${short(first[pair]!)}, ` +
-      `saddle ${pairs.saddles[pair]} at ${short(second[pair]!)}: ` +
-      `${short(100 * share)} % of the range, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
+      `${isMinimum ? 'Minimum' : 'Maximum'} ${pairs.extrema[pair]} (${short(first[pair]!)}), ` +
+      `saddle ${pairs.saddles[pair]} (${short(second[pair]!)}): ` +
+      `${short(100 * share)} %, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
       (selection.isDecided(pair) ? ' by you' : '');
   }
-}
-
-function inWords({ minima, maxima, saddles }: Counts): string {
-  return `${whole(minima)} min, ${whole(maxima)} max, ${whole(saddles)} saddles`;
 }
 
 function plural(count: number, one: string, many: string): string {
