@@ -109,11 +109,16 @@ export class Page {
     );
   }
 
-  /** How many distinct colours a view shows, and how much of it is not background. */
-  async look(side) {
+  /** What a view shows, as PNG. */
+  async picture(side) {
     // Whatever changed last is drawn in the next frame.
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    const picture = await this.at(`${side}-canvas`).screenshot();
+    return this.at(`${side}-canvas`).screenshot();
+  }
+
+  /** How many distinct colours a view shows, and how much of it is not background. */
+  async look(side) {
+    const picture = await this.picture(side);
     return this.page.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
       const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));

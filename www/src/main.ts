@@ -28,7 +28,7 @@ const INITIAL: Settings = {
   levels: OPENING.levels,
   levelPlaces: 'even',
   method: 'tikhonov',
-  persistence: 0.05,
+  persistence: 0.1,
   overrides: NO_OVERRIDES,
   colouring: 'value',
   complex: false,

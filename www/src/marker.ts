@@ -14,9 +14,10 @@ export class Marker {
   /** What lies behind the surface is still seen, faintly. */
   private readonly ghosts = new GlyphLayer({ rim: BRIGHT, ghost: true });
   private readonly path = new CurveLayer({ colour: BRIGHT, width: 4, casing: 0x10151f });
+  private readonly ghostPath = new CurveLayer({ colour: BRIGHT, width: 2, ghost: true });
 
   constructor() {
-    this.group.add(this.ghosts.group, this.glyphs.group, this.path.group);
+    this.group.add(this.ghosts.group, this.glyphs.group, this.path.group, this.ghostPath.group);
     this.ghosts.group.renderOrder = 1;
     this.glyphs.group.renderOrder = 2;
   }
@@ -24,13 +25,13 @@ export class Marker {
   clear(): void {
     this.glyphs.clear();
     this.ghosts.clear();
-    this.path.set(new Float32Array(0));
+    for (const line of [this.path, this.ghostPath]) line.set(new Float32Array(0));
   }
 
   set({ extremum, saddle, kind }: Lit, mesh: DisplayMesh, normals: Float32Array, path: Float32Array): void {
     const vertices = Uint32Array.of(extremum, saddle);
     const kinds = Int8Array.of(kind, SADDLE);
     for (const layer of [this.glyphs, this.ghosts]) layer.set(vertices, kinds, mesh.positions, normals, RADIUS);
-    this.path.set(path);
+    for (const line of [this.path, this.ghostPath]) line.set(path);
   }
 }

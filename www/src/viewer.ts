@@ -92,6 +92,8 @@ export class Viewer {
     this.plainMaterial = new MeshLambertMaterial({ ...pushed, map: this.texture });
     this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
     this.surface = new Mesh(new BufferGeometry(), this.plainMaterial);
+    // Before the lines, some of which leave no trace in depth.
+    this.surface.renderOrder = -1;
     this.edges = new LineSegments(
       new BufferGeometry(),
       new LineBasicMaterial({ color: DARK, transparent: true, opacity: 0.22 }),

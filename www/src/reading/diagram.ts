@@ -198,6 +198,7 @@ export class Diagram {
         this.point(pair);
         return this.events.toggle(pair);
       }
+      this.point(null);
       if (!this.isOnLine(x, y)) return;
       dragging = true;
       over.setPointerCapture(event.pointerId);
@@ -215,8 +216,9 @@ export class Diagram {
     over.addEventListener('pointercancel', () => {
       dragging = false;
     });
-    over.addEventListener('pointerleave', () => {
-      if (!dragging) this.point(null);
+    over.addEventListener('pointerleave', ({ pointerType }) => {
+      // A finger leaves with every tap; what it has tapped stays lit until it taps elsewhere.
+      if (!dragging && pointerType !== 'touch') this.point(null);
     });
   }
 
