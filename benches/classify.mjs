@@ -1,4 +1,5 @@
-// Critical points of a million vertices beside sorting as many numbers: the aim is to be faster than the sort.
+// Critical points of a million vertices, at δ = 0 and for all δ, beside sorting as many numbers: the aim is to be faster than the
+// sort.
 import { TriMesh } from '../dist/node.mjs';
 
 const [AROUND, ACROSS] = [1250, 800];
@@ -44,16 +45,19 @@ const built = time(() => new TriMesh(positions, triangles));
 const mesh = built.result;
 
 const classify = () => mesh.criticalPoints(values).counts;
+const hierarchy = (link) => mesh.deltaHierarchy(values, { link }).delta.length;
 const counts = classify();
-const times = { classify: [], sort: [] };
+const rows = hierarchy('consecutive');
+const times = { classify: [], consecutive: [], skip: [], sort: [] };
 for (let round = 0; round < ROUNDS; round++) {
   times.classify.push(time(classify).milliseconds);
+  for (const link of ['consecutive', 'skip']) times[link].push(time(() => hierarchy(link)).milliseconds);
   const copy = values.slice();
   times.sort.push(time(() => copy.sort()).milliseconds);
 }
 
 const count = mesh.vertexCount;
-const [classified, sorted] = [median(times.classify), median(times.sort)];
+const [classified, ordered, skipped, sorted] = Object.values(times).map(median);
 const line = (what, text) => console.log(`${what.padEnd(36)}${text}`);
 const rate = (milliseconds) =>
   `${milliseconds.toFixed(0).padStart(6)} ms${(count / milliseconds / 1000).toFixed(1).padStart(8)} M/s`;
@@ -63,5 +67,9 @@ line(
   `${counts.minima} minima, ${counts.saddles} saddles, ${counts.maxima} maxima, index sum ${counts.indexSum}`,
 );
 line(`criticalPoints, median of ${ROUNDS}`, rate(classified));
+line('δ hierarchy', `${rows} rows of the curve`);
+line(`deltaHierarchy, median of ${ROUNDS}`, rate(ordered));
+line('deltaHierarchy with link skip', rate(skipped));
 line(`Float64Array.sort, median of ${ROUNDS}`, rate(sorted));
 line('criticalPoints / sort', `${(classified / sorted).toFixed(2)} (below 1: faster than sorting)`);
+line('deltaHierarchy / sort', (ordered / sorted).toFixed(2));

@@ -287,6 +287,30 @@ stage_error! {
             /// Its place in the list.
             index: usize,
         } => "level {index} is not finite",
+        /// A vertex that was asked for does not exist.
+        IndexOutOfBounds {
+            /// Its id.
+            index: u32,
+            /// Number of vertices.
+            vertices: usize,
+        } => "there is no vertex {index}: there are {vertices} vertices, numbered from 0",
+        /// A vertex that was to stay an extremum is none.
+        NotAnExtremum {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} is to be kept, but is neither a minimum nor a maximum of the field",
+        /// Nothing is kept where something must be.
+        Unconstrained {
+            /// The component, numbered by its least vertex.
+            component: usize,
+            /// That vertex.
+            vertex: u32,
+        } => "component {component} of the mesh, with vertex {vertex}, needs at least one minimum and one maximum to be kept",
+        /// The mesh has no field with the wanted extrema and no others.
+        UnavoidableExtremum {
+            /// A vertex that would be one all the same.
+            vertex: u32,
+        } => "vertex {vertex} stays an extremum: the mesh hangs together in single vertices, and has no room for a field without it",
         /// The memory that the result needs cannot be had.
         OutOfMemory {
             /// Bytes needed.

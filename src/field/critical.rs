@@ -131,7 +131,7 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
         return Err(OptionError::InvalidOption { option: "delta".to_owned(), expected }.into());
     }
     if options.delta == 0.0 {
-        return Ok(classify(connectivity, options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 }));
+        return Ok(exact(connectivity, order));
     }
     let delta = match options.scale {
         DeltaScale::Absolute => options.delta,
@@ -141,6 +141,13 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
     }))
+}
+
+/// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
+#[inline(never)]
+pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
+    let options = DeltaOptions::default();
+    classify(connectivity, &options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 })
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
@@ -163,11 +170,11 @@ const SAW_NEUTRAL: u32 = 2;
 const SAW_ABOVE: u32 = 4;
 const SAW_BOTH: u32 = SAW_BELOW | SAW_ABOVE;
 const SAW_ANY: u32 = SAW_BOTH | SAW_NEUTRAL;
-const ONE_CHANGE: u32 = 8;
+pub(super) const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
 /// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
-fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
+pub(super) fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
     let mut states = vec![0_u32; connectivity.vertex_count()];
     for &[a, b, c] in connectivity.triangles() {
         let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));

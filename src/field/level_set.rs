@@ -2,12 +2,12 @@
 
 use core::ops::Range;
 
-use super::order::{VertexOrder, value_range};
+use super::order::{VertexOrder, sort, value_range};
 use crate::error::{Error, FieldError, OptionError};
 use crate::mesh::TriMesh;
 
 /// More levels than anyone can tell apart; the bound keeps a slip from filling the memory.
-const MOST_LEVELS: usize = 10_000;
+pub(super) const MOST_LEVELS: usize = 10_000;
 
 /// Level sets as polylines: line k has the points `offsets[k]..offsets[k + 1]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -61,13 +61,7 @@ pub fn evenly_spaced_levels(mesh: &TriMesh, values: &[f64], count: usize) -> Res
 /// `OutOfMemory` where the levels have more points than fit, as many levels of noise do.
 pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<LevelSets, Error> {
     VertexOrder::new(values, mesh.vertex_count())?;
-    if let Some(index) = levels.iter().position(|level| !level.is_finite()) {
-        return Err(FieldError::NonFiniteLevel { index }.into());
-    }
-    if levels.len() > MOST_LEVELS {
-        let expected = format!("at most {MOST_LEVELS} levels");
-        return Err(OptionError::InvalidOption { option: "levels".to_owned(), expected }.into());
-    }
+    check_levels(levels)?;
     let (sorted, order) = sort(levels);
     let extent = Extent::count(mesh, values, &sorted);
     let sets = extent.empty_sets()?;
@@ -78,6 +72,24 @@ pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Leve
         walk.trace(level, crossings.triangles(place));
     }
     Ok(walk.sets)
+}
+
+pub(super) fn check_levels(levels: &[f64]) -> Result<(), Error> {
+    if let Some(index) = levels.iter().position(|level| !level.is_finite()) {
+        return Err(FieldError::NonFiniteLevel { index }.into());
+    }
+    if levels.len() > MOST_LEVELS {
+        let expected = format!("at most {MOST_LEVELS} levels");
+        return Err(OptionError::InvalidOption { option: "levels".to_owned(), expected }.into());
+    }
+    Ok(())
+}
+
+/// Room for so many items, in a result of so many bytes.
+pub(super) fn room<T>(length: u64, bytes: u64) -> Result<Vec<T>, FieldError> {
+    let mut room = Vec::new();
+    let reserved = usize::try_from(length).is_ok_and(|length| room.try_reserve_exact(length).is_ok());
+    if reserved { Ok(room) } else { Err(FieldError::OutOfMemory { bytes }) }
 }
 
 /// How much the levels cut, known before anything is allocated for it: many levels of a noisy field can have more points than
@@ -111,7 +123,7 @@ impl Extent {
     fn empty_sets(&self) -> Result<LevelSets, FieldError> {
         // Offsets are u32.
         if self.points > u64::from(u32::MAX) {
-            return Err(self.out_of_memory());
+            return Err(FieldError::OutOfMemory { bytes: self.bytes() });
         }
         let mut sets = LevelSets {
             points: self.room(3 * self.points)?,
@@ -126,14 +138,12 @@ impl Extent {
     }
 
     fn room<T>(&self, length: u64) -> Result<Vec<T>, FieldError> {
-        let mut room = Vec::new();
-        let reserved = usize::try_from(length).is_ok_and(|length| room.try_reserve_exact(length).is_ok());
-        if reserved { Ok(room) } else { Err(self.out_of_memory()) }
+        room(length, self.bytes())
     }
 
-    fn out_of_memory(&self) -> FieldError {
+    fn bytes(&self) -> u64 {
         // Three coordinates, two ends and a parameter; an offset, a level and a flag; a triangle.
-        FieldError::OutOfMemory { bytes: 40 * self.points + 13 * self.lines + 4 * self.crossings }
+        40 * self.points + 13 * self.lines + 4 * self.crossings
     }
 }
 
@@ -180,27 +190,6 @@ impl Crossings {
     fn triangles(&self, place: usize) -> &[u32] {
         &self.triangles[self.offsets[place]..self.offsets[place + 1]]
     }
-}
-
-/// The levels in ascending order, and the place in the input of each.
-fn sort(levels: &[f64]) -> (Vec<f64>, Vec<usize>) {
-    // The bits of a double, turned so that they ascend as integers.
-    let key = |level: f64| {
-        let bits = (level + 0.0).to_bits();
-        if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
-    };
-    let mut keys: Vec<u64> = levels.iter().map(|&level| key(level)).collect();
-    keys.sort_unstable();
-    let (mut sorted, mut order) = (vec![0.0; levels.len()], vec![0; levels.len()]);
-    let mut taken = vec![0; levels.len()];
-    for (place, &level) in levels.iter().enumerate() {
-        let first = keys.partition_point(|&other| other < key(level));
-        let rank = first + taken[first];
-        taken[first] += 1;
-        sorted[rank] = level;
-        order[rank] = place;
-    }
-    (sorted, order)
 }
 
 struct Walk<'a> {

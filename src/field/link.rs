@@ -1,5 +1,6 @@
 //! Lower and upper link of a vertex whose link may be any graph.
 
+use super::order::sort;
 use crate::mesh::Connectivity;
 
 /// What the link of a vertex looks like once every link vertex has a sign.
@@ -28,9 +29,22 @@ pub(super) struct LinkScratch {
     degrees: Vec<u32>,
     parents: Vec<u32>,
     counted: Vec<bool>,
+    /// f_j − f_i of the link vertices, or f_i − f_j.
+    differences: Vec<f64>,
+    /// The edges by ascending level.
+    order: Vec<u32>,
+    levels: Vec<f64>,
 }
 
 const NONE: u32 = u32::MAX;
+/// So few numbers are sorted fastest by insertion.
+const FEW: usize = 32;
+
+fn push_positive(ends: &mut Vec<u64>, end: f64) {
+    if end > 0.0 {
+        ends.push(end.to_bits());
+    }
+}
 
 impl LinkScratch {
     pub(super) fn new(vertices: usize) -> Self {
@@ -42,6 +56,9 @@ impl LinkScratch {
             degrees: Vec::new(),
             parents: Vec::new(),
             counted: Vec::new(),
+            differences: Vec::new(),
+            order: Vec::new(),
+            levels: Vec::new(),
         }
     }
 
@@ -57,6 +74,77 @@ impl LinkScratch {
             upper_components: self.components(1),
             lower_characteristic: lower_vertices - lower_edges,
             on_boundary: self.degrees.contains(&1),
+        }
+    }
+
+    /// Takes the link of `vertex` with the differences f_j − f_i: what [`LinkScratch::component_ends`] asks for.
+    pub(super) fn measure(&mut self, connectivity: &Connectivity, vertex: u32, difference: impl Fn(u32) -> f64) {
+        self.gather(connectivity, vertex);
+        self.differences.clear();
+        self.differences.extend(self.nodes.iter().map(|&v| difference(v)));
+    }
+
+    /// Exchanges below and above.
+    pub(super) fn turn_over(&mut self) {
+        for difference in &mut self.differences {
+            *difference = -*difference;
+        }
+    }
+
+    /// The δ at which the components of the lower link stop being counted, as the bits of positive numbers, descending: for
+    /// every δ ≥ 0 as many of them are above δ as the lower link has components, link vertices within δ joining their
+    /// neighbours.
+    ///
+    /// A component is a class of the link vertices with difference ≤ δ, and counts as long as its lowest vertex is below −δ.
+    /// As δ grows, classes merge. The elder rule lets the one with the lower vertex live on; so every class has one δ at which it
+    /// ends, by its depth or by a merger.
+    pub(super) fn component_ends(&mut self, ends: &mut Vec<u64>) {
+        self.sort_edges();
+        self.parents.clear();
+        self.parents.extend(0..self.nodes.len() as u32);
+        ends.clear();
+        for i in 0..self.order.len() {
+            let edge = self.order[i] as usize;
+            let [a, b] = self.edges[edge];
+            let (a, b) = (self.root(a), self.root(b));
+            if a == b {
+                continue;
+            }
+            // Roots are the lowest vertices of their classes.
+            let is_elder = self.differences[a as usize] <= self.differences[b as usize];
+            let (elder, younger) = if is_elder { (a, b) } else { (b, a) };
+            self.parents[younger as usize] = elder;
+            push_positive(ends, (-self.differences[younger as usize]).min(self.levels[edge]));
+        }
+        for v in 0..self.nodes.len() {
+            if self.parents[v] == v as u32 {
+                push_positive(ends, -self.differences[v]);
+            }
+        }
+        ends.sort_unstable();
+        ends.reverse();
+    }
+
+    /// Puts the edges in the order of their levels, the higher difference of their two ends.
+    fn sort_edges(&mut self) {
+        let levels = self.edges.iter().map(|edge| {
+            let [x, y] = edge.map(|v| self.differences[v as usize]);
+            if x > y { x } else { y }
+        });
+        self.levels.clear();
+        self.levels.extend(levels);
+        self.order.clear();
+        if self.levels.len() > FEW {
+            self.order.extend(sort(&self.levels).1.iter().map(|&edge| edge as u32));
+            return;
+        }
+        for edge in 0..self.levels.len() {
+            self.order.push(edge as u32);
+            let mut place = edge;
+            while place > 0 && self.levels[self.order[place - 1] as usize] > self.levels[edge] {
+                self.order.swap(place - 1, place);
+                place -= 1;
+            }
         }
     }
 

@@ -25,27 +25,43 @@ export function toNumbers(value, argument) {
   return numbers;
 }
 
-/** Triangles as the wasm module takes them; whether the ids name vertices of the mesh is checked there. */
-export function toTriangles(value, vertices) {
+/**
+ * Vertex numbers as the wasm module takes them; whether they name vertices of the mesh is checked there. For those that it cannot
+ * be asked about, `refuse` gives the error.
+ */
+function toIds(value, argument, refuse) {
   const name = typedArrayName(value);
-  if (name === 'Uint32Array') return value;
+  if (name === 'Uint32Array') return value instanceof Uint32Array ? value : new Uint32Array(value);
   if (name === 'Uint16Array') return Uint32Array.from(value);
-  if (!Array.isArray(value)) throw invalidArgument('triangles', IDS);
+  if (!Array.isArray(value)) throw invalidArgument(argument, IDS);
   const ids = new Uint32Array(value.length);
   for (let index = 0; index < value.length; index++) {
     const id = value[index];
-    if (typeof id !== 'number') throw invalidArgument('triangles', IDS, { index });
-    if (!Number.isInteger(id) || id < 0 || id > LARGEST_ID) {
-      const triangle = Math.floor(index / 3);
-      throw new MorseSmoothError(
-        'IndexOutOfBounds',
-        `triangle ${triangle} names vertex ${id}, but there are ${vertices} vertices, numbered from 0`,
-        { triangle, index: id, vertices },
-      );
-    }
+    if (typeof id !== 'number') throw invalidArgument(argument, IDS, { index });
+    if (!Number.isInteger(id) || id < 0 || id > LARGEST_ID) throw refuse(id, index);
     ids[index] = id;
   }
   return ids;
+}
+
+/** The triangles of a mesh. */
+export function toTriangles(value, vertices) {
+  return toIds(value, 'triangles', (id, place) => {
+    const triangle = Math.floor(place / 3);
+    return new MorseSmoothError(
+      'IndexOutOfBounds',
+      `triangle ${triangle} names vertex ${id}, but there are ${vertices} vertices, numbered from 0`,
+      { triangle, index: id, vertices },
+    );
+  });
+}
+
+/** Vertices of a mesh that has so many. */
+export function toVertices(value, argument, vertices) {
+  return toIds(value, argument, (id) => {
+    const message = `there is no vertex ${id}: there are ${vertices} vertices, numbered from 0`;
+    return new MorseSmoothError('IndexOutOfBounds', message, { index: id, vertices });
+  });
 }
 
 /** Bytes of a file: a Uint8Array, which a Node Buffer is too. */
@@ -70,9 +86,13 @@ export function toFields(value) {
   return Object.fromEntries(Object.entries(value).map(([name, field]) => [name, toNumbers(field, `fields.${name}`)]));
 }
 
-/** Levels by value, or `{ count }`. */
-export function toLevels(value) {
-  return isRecord(value) ? { ...value } : toNumbers(value, 'levels');
+/** Levels by value, or `{ count }`, or `{ saddles }` of a mesh with so many vertices. */
+export function toLevels(value, vertices) {
+  if (!isRecord(value)) return toNumbers(value, 'levels');
+  const settings = { ...value };
+  const { saddles } = settings;
+  if (typeof saddles === 'object' && saddles !== null) settings.saddles = toVertices(saddles, 'saddles', vertices);
+  return settings;
 }
 
 /**

@@ -1,4 +1,4 @@
-import { toLevels, toNumbers, toOptions, toTriangles } from './convert.js';
+import { toLevels, toNumbers, toOptions, toTriangles, toVertices } from './convert.js';
 import { attempt, invalidArgument } from './error.js';
 import { Handle } from './handle.js';
 import { core } from './instance.js';
@@ -66,8 +66,43 @@ export class TriMesh {
     return this.#analyse('criticalPoints', values, toOptions(options));
   }
 
+  deltaHierarchy(values, options) {
+    return this.#analyse('deltaHierarchy', values, toOptions(options));
+  }
+
   levelSets(values, levels) {
-    return this.#analyse('levelSets', values, toLevels(levels));
+    return this.#analyse('levelSets', values, toLevels(levels, this.vertexCount));
+  }
+
+  bands(values, levels) {
+    return this.#analyse('bands', values, toLevels(levels, this.vertexCount));
+  }
+
+  persistence(values) {
+    return this.#analyse('persistence', values);
+  }
+
+  persistenceCurve(values) {
+    return this.#analyse('persistenceCurve', values);
+  }
+
+  simplify(values, options) {
+    const settings = toOptions(options);
+    const keep = settings?.keep;
+    if (typeof keep === 'object' && keep !== null) settings.keep = toVertices(keep, 'keep', this.vertexCount);
+    return this.#analyse('simplify', values, settings);
+  }
+
+  morseComplex(values, options) {
+    return this.#analyse('morseComplex', values, toOptions(options));
+  }
+
+  morseHierarchy(values) {
+    return this.#analyse('morseHierarchy', values);
+  }
+
+  basins(values, options) {
+    return this.#analyse('basins', values, toOptions(options));
   }
 
   smoothness(values, options) {

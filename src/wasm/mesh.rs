@@ -1,13 +1,11 @@
 //! The class behind `TriMesh`.
 
-use js_sys::{Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::convert::{diagnostics, floats, ids, object, sparse};
-use super::error::{Thrown, set};
+use super::error::Thrown;
 use super::options::read;
-use crate::error::OptionError;
-use crate::field::{self, CriticalKind};
 use crate::mesh::{self, TriMesh};
 use crate::operators;
 use crate::smooth;
@@ -78,57 +76,6 @@ impl RawTriMesh {
 
     pub fn triangles(&self) -> Uint32Array {
         Uint32Array::from(self.mesh.connectivity().triangles().as_flattened())
-    }
-
-    #[wasm_bindgen(js_name = criticalPoints)]
-    pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let options = read(options, &[&["delta", "deltaIs", "link", "rule"]])?.delta()?;
-        let found = field::critical_points(&self.mesh, &floats(values)?, &options)?;
-        let points = &found.points;
-        let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
-        let multiplicities: Vec<u32> = points.iter().map(|p| p.multiplicity).collect();
-        let on_boundary: Vec<u8> = points.iter().map(|p| u8::from(p.on_boundary)).collect();
-        let kinds: Vec<i8> = points
-            .iter()
-            .map(|p| match p.kind {
-                CriticalKind::Minimum => -1,
-                CriticalKind::Saddle => 0,
-                CriticalKind::Maximum => 1,
-            })
-            .collect();
-        let result = Object::new();
-        set(&result, "vertices", &Uint32Array::from(vertices.as_slice()));
-        set(&result, "kinds", &Int8Array::from(kinds.as_slice()));
-        set(&result, "multiplicities", &Uint32Array::from(multiplicities.as_slice()));
-        set(&result, "onBoundary", &Uint8Array::from(on_boundary.as_slice()));
-        set(&result, "counts", &object(&found.counts));
-        Ok(result)
-    }
-
-    /// `levels` is a `Float64Array` or `{ count }`.
-    #[wasm_bindgen(js_name = levelSets)]
-    pub fn level_sets(&self, values: &Float64Array, levels: &JsValue) -> Result<Object, Thrown> {
-        let values = floats(values)?;
-        let levels = match levels.dyn_ref::<Float64Array>() {
-            Some(levels) => floats(levels)?,
-            None => {
-                let count = read(levels, &[&["count"]])?.count.ok_or_else(|| OptionError::InvalidArgument {
-                    argument: "levels".to_owned(),
-                    expected: "a list of numbers or { count }".to_owned(),
-                })?;
-                field::evenly_spaced_levels(&self.mesh, &values, count as usize)?
-            }
-        };
-        let sets = field::level_sets(&self.mesh, &values, &levels)?;
-        let closed: Vec<u8> = sets.closed.iter().map(|&closed| u8::from(closed)).collect();
-        let result = Object::new();
-        set(&result, "points", &Float64Array::from(sets.points.as_slice()));
-        set(&result, "offsets", &Uint32Array::from(sets.offsets.as_slice()));
-        set(&result, "levels", &Float64Array::from(sets.levels.as_slice()));
-        set(&result, "closed", &Uint8Array::from(closed.as_slice()));
-        set(&result, "edges", &Uint32Array::from(sets.edges.as_flattened()));
-        set(&result, "parameters", &Float64Array::from(sets.parameters.as_slice()));
-        Ok(result)
     }
 
     pub fn smoothness(&self, values: &Float64Array, options: &JsValue) -> Result<JsValue, Thrown> {

@@ -2,10 +2,13 @@
 #![allow(unreachable_pub, reason = "wasm-bindgen exports what is `pub`, however private the module")]
 
 mod convert;
+mod critical;
 mod error;
 mod files;
+mod levels;
 mod mesh;
 mod options;
+mod persistence;
 mod smoother;
 
 pub use error::Thrown;

@@ -5,7 +5,7 @@ use wasm_bindgen::{JsCast, JsValue};
 
 use super::error::set;
 use crate::error::OptionError;
-use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, LinkReading};
+use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, Keep, LinkReading, PathStyle, ThresholdScale};
 use crate::operators::{LaplacianWeights, MassScale};
 use crate::smooth::{
     Metric, Operator, Precision, SmootherOptions, SolverChoice, TikhonovOptions, epsilon_for_wavelength,
@@ -28,11 +28,20 @@ pub(super) struct Options {
     pub(super) file_name: Option<String>,
     pub(super) binary: Option<bool>,
     pub(super) count: Option<u32>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    pub(super) saddles: JsValue,
+    pub(super) offset: Option<f64>,
     kind: Option<String>,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     pub(super) column: JsValue,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     pub(super) fields: JsValue,
+    threshold: Option<f64>,
+    threshold_is: Option<String>,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    pub(super) keep: JsValue,
+    pub(super) persistence: Option<f64>,
+    paths: Option<String>,
     delta: Option<f64>,
     delta_is: Option<String>,
     link: Option<String>,
@@ -88,7 +97,7 @@ fn not_an_object() -> OptionError {
 /// What kind of value an option takes, in the words of JavaScript rather than of serde.
 fn expected(option: &str) -> &'static str {
     match option {
-        "delta" | "cutoffWavelength" => "a number",
+        "delta" | "offset" | "threshold" | "persistence" | "cutoffWavelength" => "a number",
         "channels" | "count" => "an integer that is not negative",
         "weld" | "binary" | "bounds" => "true or false",
         _ => "a name in quotes",
@@ -137,6 +146,28 @@ impl Options {
             link: choose("link", self.link.as_ref(), &links)?,
             rule: choose("rule", self.rule.as_ref(), &rules)?,
         })
+    }
+
+    /// What `simplify` is to leave: `keep`, or what is above the threshold.
+    pub(super) fn extrema<'a>(&self, keep: Option<&'a [u32]>) -> Result<Keep<'a>, OptionError> {
+        let scales = [("relative", ThresholdScale::Relative), ("absolute", ThresholdScale::Absolute)];
+        let scale = choose("thresholdIs", self.threshold_is.as_ref(), &scales)?;
+        let Some(vertices) = keep else {
+            let missing = || invalid("threshold", "a number that is not negative, unless `keep` says what to keep");
+            return Ok(Keep::Above { threshold: self.threshold.ok_or_else(missing)?, scale });
+        };
+        for (option, is_there) in
+            [("threshold", self.threshold.is_some()), ("thresholdIs", self.threshold_is.is_some())]
+        {
+            if is_there {
+                return Err(inapplicable(option, "`keep` says what to keep"));
+            }
+        }
+        Ok(Keep::Extrema(vertices))
+    }
+
+    pub(super) fn paths(&self) -> Result<PathStyle, OptionError> {
+        choose("paths", self.paths.as_ref(), &[("whole", PathStyle::Whole), ("merged", PathStyle::Merged)])
     }
 
     pub(super) fn weights(&self) -> Result<LaplacianWeights, OptionError> {
@@ -232,7 +263,7 @@ impl Options {
     }
 }
 
-fn inapplicable(option: &str, reason: &str) -> OptionError {
+pub(super) fn inapplicable(option: &str, reason: &str) -> OptionError {
     OptionError::InapplicableOption { option: option.to_owned(), reason: reason.to_owned() }
 }
 

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use morse_smooth::field::{
-    CriticalCounts, DeltaOptions, LinkReading, critical_points, largest_edge_difference, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, ThresholdScale, critical_points,
+    largest_edge_difference, persistence, simplify, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
 use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
@@ -114,6 +115,28 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
             let options = DeltaOptions { delta: delta.parse().expect("a number"), link, ..DeltaOptions::default() };
             let found = critical_points(mesh, values, &options).expect("a field").counts;
             check.equal(&format!("{context} δ = {delta} {name}"), &as_array(&found), &counts(&readings[name]));
+        }
+    }
+    let diagram = persistence(mesh, values).expect("a field");
+    for (threshold, pairs) in expected["persistentPairsAbove"].as_object().expect("a table of thresholds") {
+        let threshold = threshold.parse::<f64>().expect("a number") * (range.max - range.min);
+        let above = |kind| diagram.pairs.iter().filter(|p| p.kind == kind && p.persistence > threshold).count() as u64;
+        let found = [
+            above(CriticalKind::Minimum) + diagram.essential_minima.len() as u64,
+            above(CriticalKind::Maximum) + diagram.essential_maxima.len() as u64,
+        ];
+        let expected = [0, 1].map(|side| pairs[side].as_u64().expect("a count"));
+        check.equal(&format!("{context} pairs above {threshold}"), &found, &expected);
+        let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+        let simple = simplify(mesh, values, keep).expect("a surface");
+        let counts = critical_points(mesh, &simple, &DeltaOptions::default()).expect("a field").counts;
+        let found = [u64::from(counts.minima), u64::from(counts.maxima)];
+        check.equal(&format!("{context} simplified by {threshold}"), &found, &expected);
+        let change = values.iter().zip(&simple).map(|(f, g)| (f - g).abs()).fold(0.0, f64::max);
+        check.equal(&format!("{context} changes by {change}, up to {threshold}"), &(change <= threshold), &true);
+        if mesh.topology().closed {
+            let sum = i64::from(counts.minima) + i64::from(counts.maxima) - i64::from(counts.saddles);
+            check.equal(&format!("{context} m − s + M"), &sum, &mesh.topology().euler_characteristic);
         }
     }
     let normalized: Vec<f64> = values.iter().map(|v| (v - range.min) / (range.max - range.min)).collect();

@@ -1,0 +1,288 @@
+//! At which δ every critical vertex stops being one, and so C_δ for all δ at once \[Patane09, section 3\].
+
+use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, exact, largest_edge_difference};
+use super::link::LinkScratch;
+use super::order::VertexOrder;
+use crate::error::Error;
+use crate::mesh::{Connectivity, LinkKind, TriMesh};
+
+/// A critical vertex and the δ at which it stops being one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HierarchyPoint {
+    /// Its id.
+    pub vertex: u32,
+    /// Its kind.
+    pub kind: CriticalKind,
+    /// The least relative δ at which it is not critical: 0 where only its id tells it from an equal neighbour.
+    pub vanishes_at: f64,
+    /// The same in the units of the values.
+    pub vanishes_at_absolute: f64,
+}
+
+/// Numbers of critical points as steps over the relative δ: row 0 is δ = 0, row k holds from `delta[k]` up to, not including,
+/// `delta[k + 1]`, the last one for ever.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DeltaCurve {
+    /// Where each row begins, ascending. What is critical by its id alone is so at 0 only, and row 1 then begins at the least
+    /// positive number.
+    pub delta: Vec<f64>,
+    /// Number of minima.
+    pub minima: Vec<u32>,
+    /// Number of maxima.
+    pub maxima: Vec<u32>,
+    /// Number of saddles, with multiplicity.
+    pub saddles: Vec<u32>,
+}
+
+/// The critical points of a field for all δ.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DeltaHierarchy {
+    /// All that are critical at δ = 0, by ascending vertex.
+    pub points: Vec<HierarchyPoint>,
+    /// Their numbers at every δ.
+    pub curve: DeltaCurve,
+    /// Σ (1 − χ(lower link)) over all vertices at δ = 0: see [`CriticalCounts::index_sum`].
+    pub index_sum: i64,
+}
+
+impl DeltaHierarchy {
+    /// The counts that [`critical_points`](super::critical_points) has at a relative δ ≥ 0.
+    #[must_use]
+    pub fn counts_at(&self, delta: f64) -> CriticalCounts {
+        let curve = &self.curve;
+        let row = curve.delta.partition_point(|&start| start <= delta).saturating_sub(1);
+        let at = |counts: &[u32]| counts.get(row).copied().unwrap_or_default();
+        CriticalCounts {
+            minima: at(&curve.minima),
+            maxima: at(&curve.maxima),
+            saddles: at(&curve.saddles),
+            index_sum: (delta == 0.0).then_some(self.index_sum),
+        }
+    }
+
+    /// The points of C_δ for a relative δ ≥ 0.
+    pub fn points_at(&self, delta: f64) -> impl Iterator<Item = &HierarchyPoint> {
+        self.points.iter().filter(move |point| delta == 0.0 || point.vanishes_at > delta)
+    }
+}
+
+/// For every critical vertex the δ at which it stops being one, by the strict rule for extrema.
+///
+/// # Definition
+/// A vertex is in C_δ where [`critical_points`](super::critical_points) has it at δ. The sets are nested, C_δ ⊆ C_δ′ for δ ≥ δ′, so
+/// one number for each vertex tells them all: it is critical at δ = 0, and for δ > 0 exactly while δ is below that number. An
+/// extremum vanishes at the least |f_j − f_i| of its link. A saddle of multiplicity k loses one of its k parts after the other.
+///
+/// # Properties
+/// Agrees with `critical_points` to the last bit: the relative δ are the least doubles t for which t · D, rounded, is not below
+/// the absolute ones, where D is [`largest_edge_difference`]. One pass over the triangles, and a sort.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let hierarchy = field::delta_hierarchy(&torus, &height, field::LinkReading::Consecutive)?;
+/// assert_eq!(hierarchy.counts_at(0.0).saddles, 2);
+/// assert_eq!(hierarchy.points_at(0.9).count(), 0);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Result<DeltaHierarchy, Error> {
+    let connectivity = mesh.connectivity();
+    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+    let found = exact(connectivity, order);
+    let largest = largest_edge_difference(connectivity, values);
+    let mut thresholds = Thresholds { connectivity, values, link, scratch: None, units: Vec::new(), upper: Vec::new() };
+    let mut points = Vec::with_capacity(found.points.len());
+    let counts = found.counts;
+    let mut keys = Vec::with_capacity((counts.minima + counts.maxima + counts.saddles) as usize);
+    for point in &found.points {
+        thresholds.find(point);
+        let (mut vanishes_at, mut vanishes_at_absolute) = (0.0, 0.0);
+        for unit in 0..point.multiplicity as usize {
+            // Parts without a positive δ are told from equal neighbours by ids alone.
+            let absolute = thresholds.units.get(unit).map_or(0.0, |&bits| f64::from_bits(bits));
+            let relative = relative(absolute, largest);
+            if unit == 0 {
+                (vanishes_at, vanishes_at_absolute) = (relative, absolute);
+            }
+            keys.push(key(relative, point.kind));
+        }
+        points.push(HierarchyPoint { vertex: point.vertex, kind: point.kind, vanishes_at, vanishes_at_absolute });
+    }
+    let curve = curve(&sorted(&keys), &counts);
+    Ok(DeltaHierarchy { points, curve, index_sum: counts.index_sum.unwrap_or_default() })
+}
+
+/// Finds the absolute δ at which critical vertices vanish.
+struct Thresholds<'a> {
+    connectivity: &'a Connectivity,
+    values: &'a [f64],
+    link: LinkReading,
+    /// Made for the first vertex that needs it: many fields have none.
+    scratch: Option<LinkScratch>,
+    /// The result, as the bits of positive numbers: for every part of a saddle its δ, descending; for extrema one.
+    units: Vec<u64>,
+    upper: Vec<u64>,
+}
+
+impl Thresholds<'_> {
+    fn find(&mut self, point: &CriticalPoint) {
+        let is_cycle = self.connectivity.link_kinds()[point.vertex as usize] == LinkKind::Cycle;
+        if point.kind != CriticalKind::Saddle {
+            self.extremum(point.vertex);
+        } else if is_cycle && self.link == LinkReading::Consecutive {
+            self.changes(point);
+        } else {
+            self.components(point.vertex, is_cycle);
+        }
+    }
+
+    /// A strict extremum lasts until δ reaches the nearest of its link vertices.
+    fn extremum(&mut self, vertex: u32) {
+        let value = self.values[vertex as usize];
+        let mut nearest = f64::INFINITY;
+        for [a, b] in self.connectivity.link(vertex) {
+            for v in [a, b] {
+                let distance = (self.values[v as usize] - value).abs();
+                nearest = if distance < nearest { distance } else { nearest };
+            }
+        }
+        self.units.clear();
+        self.units.push(nearest.to_bits());
+    }
+
+    /// A link edge with its ends on opposite sides counts until δ reaches the nearer one; a saddle of multiplicity k needs
+    /// 2k + 2 of them.
+    fn changes(&mut self, saddle: &CriticalPoint) {
+        let value = self.values[saddle.vertex as usize];
+        self.units.clear();
+        for ends in self.connectivity.link(saddle.vertex) {
+            let [x, y] = ends.map(|v| self.values[v as usize] - value);
+            if (x < 0.0) != (y < 0.0) {
+                let (x, y) = (x.abs(), y.abs());
+                let nearer = if x < y { x } else { y };
+                self.units.push(nearer.to_bits());
+            }
+        }
+        // The bits of numbers that are not negative ascend with them.
+        self.units.sort_unstable();
+        self.units.reverse();
+        let mut units = 0;
+        for place in (3..self.units.len()).step_by(2) {
+            self.units[units] = self.units[place];
+            units += 1;
+        }
+        self.units.truncate(units);
+    }
+
+    /// Part j of a saddle lasts while the lower or the upper link has more than j components, and both have one.
+    fn components(&mut self, vertex: u32, is_cycle: bool) {
+        let (connectivity, values) = (self.connectivity, self.values);
+        let scratch = self.scratch.get_or_insert_with(|| LinkScratch::new(connectivity.vertex_count()));
+        scratch.measure(connectivity, vertex, |j| values[j as usize] - values[vertex as usize]);
+        scratch.component_ends(&mut self.units);
+        if !is_cycle {
+            scratch.turn_over();
+            scratch.component_ends(&mut self.upper);
+            let deepest = |ends: &[u64]| ends.first().copied().unwrap_or_default();
+            let both = deepest(&self.units).min(deepest(&self.upper));
+            self.units.resize(self.units.len().max(self.upper.len()), 0);
+            for (end, &upper) in self.units.iter_mut().zip(&self.upper) {
+                *end = (*end).max(upper);
+            }
+            for end in &mut self.units {
+                *end = (*end).min(both);
+            }
+        }
+        // Around a cycle components below and above alternate: two below have two above between them.
+        if !self.units.is_empty() {
+            self.units.remove(0);
+        }
+    }
+}
+
+/// The least t for which t · `largest`, rounded as [`critical_points`](super::critical_points) does, is not below `threshold`.
+fn relative(threshold: f64, largest: f64) -> f64 {
+    if threshold <= 0.0 {
+        return 0.0;
+    }
+    let reaches = |bits: u64| f64::from_bits(bits) * largest >= threshold;
+    // The quotient is at most a few units of rounding away; the threshold is the difference of an edge, so 1 is enough.
+    let quotient = (threshold / largest).to_bits();
+    let mut below = quotient.saturating_sub(3);
+    let mut enough = (quotient + 2).min(1.0_f64.to_bits());
+    if (reaches(below) && below > 0) || !reaches(enough) {
+        // But not where numbers are so small that they have few digits.
+        (below, enough) = (0, 1.0_f64.to_bits());
+    }
+    while enough - below > 1 {
+        let middle = below + (enough - below) / 2;
+        if reaches(middle) {
+            enough = middle;
+        } else {
+            below = middle;
+        }
+    }
+    f64::from_bits(enough)
+}
+
+/// A relative δ and below it the kind, in one integer that sorts by δ: a number in [0, 1] leaves the two highest bits free. What
+/// vanishes at 0 is there at 0 still, and gone at the next number.
+fn key(relative: f64, kind: CriticalKind) -> u64 {
+    relative.to_bits().max(1) << 2 | kind as u64
+}
+
+/// Sorts keys: into buckets of equal width over [0, 1] first, which for most fields hold few each.
+fn sorted(keys: &[u64]) -> Vec<u64> {
+    let buckets = (keys.len() / 4).max(1);
+    let bucket = |key: u64| ((f64::from_bits(key >> 2) * buckets as f64) as usize).min(buckets - 1);
+    let mut ends = vec![0_u32; buckets + 1];
+    for &key in keys {
+        ends[bucket(key) + 1] += 1;
+    }
+    for i in 0..buckets {
+        ends[i + 1] += ends[i];
+    }
+    let mut sorted = vec![0; keys.len()];
+    for &key in keys {
+        // Starts turn into ends.
+        let place = &mut ends[bucket(key)];
+        sorted[*place as usize] = key;
+        *place += 1;
+    }
+    let mut start = 0;
+    for &end in &ends[..buckets] {
+        sorted[start..end as usize].sort_unstable();
+        start = end as usize;
+    }
+    sorted
+}
+
+fn curve(keys: &[u64], counts: &CriticalCounts) -> DeltaCurve {
+    let mut left = [counts.minima, counts.saddles, counts.maxima];
+    let rows = keys.len() + 1;
+    let mut curve = DeltaCurve {
+        delta: Vec::with_capacity(rows),
+        minima: Vec::with_capacity(rows),
+        maxima: Vec::with_capacity(rows),
+        saddles: Vec::with_capacity(rows),
+    };
+    let mut delta = 0;
+    for &key in keys.iter().chain(&[u64::MAX]) {
+        if key >> 2 != delta {
+            curve.delta.push(f64::from_bits(delta));
+            curve.minima.push(left[0]);
+            curve.saddles.push(left[1]);
+            curve.maxima.push(left[2]);
+            delta = key >> 2;
+        }
+        if key != u64::MAX {
+            left[(key & 3) as usize] -= 1;
+        }
+    }
+    curve
+}

@@ -1,0 +1,109 @@
+//! Components of growing sublevel or superlevel sets, by union and find.
+
+use super::direction::Sweep;
+use super::saddles::Saddles;
+
+/// Sets of vertices, each named by one of them.
+#[derive(Debug)]
+pub(super) struct Forest {
+    /// Towards the name.
+    parents: Vec<u32>,
+}
+
+impl Forest {
+    pub(super) fn new(parents: Vec<u32>) -> Self {
+        Self { parents }
+    }
+
+    pub(super) fn find(&mut self, mut v: u32) -> u32 {
+        loop {
+            let parent = self.parents[v as usize];
+            if parent == v {
+                return v;
+            }
+            // Half of the way becomes shorter each time.
+            let above = self.parents[parent as usize];
+            self.parents[v as usize] = above;
+            v = above;
+        }
+    }
+
+    pub(super) fn is_name(&self, v: u32) -> bool {
+        self.parents[v as usize] == v
+    }
+
+    /// Two names become the second one.
+    pub(super) fn lead(&mut self, from: u32, to: u32) {
+        self.parents[from as usize] = to;
+    }
+
+    /// Whether `a` and `b` were in different sets until now.
+    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.find(a), self.find(b));
+        self.lead(a, b);
+        a != b
+    }
+}
+
+/// The components of what a sweep has met, each named by the extremum that it began with.
+///
+/// Only saddles have to be visited, in the order of the sweep, and not all vertices: between saddles, components grow, and a
+/// steepest path stays within its component, so that a neighbour's component is that of the extremum it leads to.
+#[derive(Debug)]
+pub(super) struct Merging<'a> {
+    sweep: Sweep<'a>,
+    /// At first the steepest paths; later, extrema lead on to those that their components joined.
+    components: Forest,
+}
+
+/// Two components became one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Merged {
+    /// The extremum that was met later: its component ends.
+    pub(super) ended: u32,
+    /// The extremum that now names both.
+    pub(super) survivor: u32,
+}
+
+impl<'a> Merging<'a> {
+    /// `steepest` has the neighbour that every vertex leads to, against the direction of the sweep.
+    pub(super) fn new(sweep: Sweep<'a>, steepest: Vec<u32>) -> Self {
+        Self { sweep, components: Forest::new(steepest) }
+    }
+
+    /// The extremum that the component of `v` began with.
+    pub(super) fn find(&mut self, v: u32) -> u32 {
+        self.components.find(v)
+    }
+
+    /// Joins the components of `a` and `b`; `None` if they are one already.
+    pub(super) fn join(&mut self, a: u32, b: u32) -> Option<Merged> {
+        let (a, b) = (self.find(a), self.find(b));
+        if a == b {
+            return None;
+        }
+        let (survivor, ended) = if self.sweep.precedes(a, b) { (a, b) } else { (b, a) };
+        self.components.lead(ended, survivor);
+        Some(Merged { ended, survivor })
+    }
+
+    /// Visits the saddles in the order of the sweep and tells what merges where.
+    pub(super) fn visit(&mut self, saddles: &Saddles, ascending: &[u32], mut tell: impl FnMut(u32, Merged)) {
+        let downwards = self.sweep.is_downwards();
+        for i in 0..ascending.len() {
+            let place = if downwards { ascending.len() - 1 - i } else { i };
+            let saddle = saddles.get(ascending[place]);
+            let sides = if downwards { saddle.upper } else { saddle.lower };
+            for k in 1..sides.len() {
+                if let Some(merged) = self.join(sides[0], sides[k]) {
+                    tell(saddle.vertex, merged);
+                }
+            }
+        }
+    }
+
+    /// Whether nothing took over the component that began with `v`.
+    pub(super) fn is_root(&self, v: u32) -> bool {
+        self.components.is_name(v)
+    }
+}

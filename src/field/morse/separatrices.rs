@@ -1,0 +1,158 @@
+//! The arcs of the Morse complex as lines on the mesh.
+
+use super::NONE;
+use super::flow::Flow;
+use super::hierarchy::{Cancellations, absolute_threshold};
+use crate::error::{Error, FieldError};
+use crate::field::critical::CriticalKind;
+use crate::field::order::VertexOrder;
+use crate::mesh::TriMesh;
+
+/// How far the lines of a Morse complex are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PathStyle {
+    /// Every line from its saddle to its extremum. The default.
+    #[default]
+    Whole,
+    /// A line ends at the first vertex that an earlier one of the same direction has passed: they go on together. Nothing is
+    /// drawn twice.
+    Merged,
+}
+
+/// Lines along edges from saddles to extrema: line k has the vertices `offsets[k]..offsets[k + 1]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MorseComplex {
+    /// The vertices of the lines, from the saddle on.
+    pub vertices: Vec<u32>,
+    /// Where each line starts, and the number of vertices at the end.
+    pub offsets: Vec<u32>,
+    /// The saddle of each line.
+    pub saddles: Vec<u32>,
+    /// The extremum that each line leads to.
+    pub extrema: Vec<u32>,
+    /// Minimum or maximum.
+    pub kinds: Vec<CriticalKind>,
+}
+
+/// Traces the steepest paths from each saddle: one for each component of its lower and of its upper link.
+///
+/// # Definition
+/// A path starts with the steepest edge into its component of the link, and goes on along the steepest edge of every
+/// vertex, (difference of values) / length, until there is none. Of equally steep edges the one to the lowest (highest)
+/// (value, id) is taken. Where pairs of persistence up to `persistence` (relative to the range of the values) are cancelled
+/// \[Edelsbrunner03\], paths that led to a cancelled extremum go on from there, along the path from its saddle backwards, and
+/// down (up) the other path of that saddle; at 0 none are.
+///
+/// # Properties
+/// A saddle of multiplicity k inside a surface has 2(k + 1) lines. Values are monotone along each line, as long as
+/// nothing is cancelled. Paths of the same direction that meet go on together.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `persistence` is negative or not finite;
+/// `OutOfMemory` where whole lines have more points than fit.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let complex = field::morse_complex(&torus, &height, 0.0, field::PathStyle::Whole)?;
+/// assert_eq!(complex.saddles.len(), 8);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn morse_complex(
+    mesh: &TriMesh,
+    values: &[f64],
+    persistence: f64,
+    style: PathStyle,
+) -> Result<MorseComplex, Error> {
+    let order = VertexOrder::new(values, mesh.vertex_count())?;
+    let threshold = absolute_threshold(mesh, values, persistence)?;
+    let cancelled = Cancellations::new(mesh, order, threshold);
+    let alive = cancelled.alive(threshold);
+    let flows = cancelled.flows(threshold);
+    let extrema = cancelled.extrema(threshold);
+    let mut complex = MorseComplex::default();
+    let units = &cancelled.units;
+    let mut starts = [Vec::new(), Vec::new()];
+    let mut unit = 0;
+    while unit < units.len() {
+        // Simple saddles of one vertex share paths.
+        let vertex = units.vertices[unit];
+        let already = starts.each_ref().map(Vec::len);
+        while unit < units.len() && units.vertices[unit] == vertex {
+            for (side, paths) in [units.down[unit], units.up[unit]].into_iter().enumerate() {
+                for first in paths.into_iter().filter(|&first| alive[unit] && first != NONE) {
+                    if !starts[side][already[side]..].contains(&(vertex, first)) {
+                        starts[side].push((vertex, first));
+                    }
+                }
+            }
+            unit += 1;
+        }
+    }
+    complex.reserve(&starts, &flows, style)?;
+    complex.offsets.push(0);
+    for (side, kind) in [CriticalKind::Minimum, CriticalKind::Maximum].into_iter().enumerate() {
+        let mut passed = vec![false; if style == PathStyle::Merged { flows[side].len() } else { 0 }];
+        for &(saddle, first) in &starts[side] {
+            complex.trace(&flows[side], saddle, first, &mut passed);
+            complex.saddles.push(saddle);
+            complex.extrema.push(extrema[side][cancelled.ends[side][first as usize] as usize]);
+            complex.kinds.push(kind);
+        }
+    }
+    Ok(complex)
+}
+
+impl MorseComplex {
+    /// Lines can share long ways: their points are counted before there is memory for them.
+    fn reserve(
+        &mut self,
+        starts: &[Vec<(u32, u32)>; 2],
+        flows: &[Flow<'_>; 2],
+        style: PathStyle,
+    ) -> Result<(), FieldError> {
+        let lines = starts[0].len() + starts[1].len();
+        let points: u64 = match style {
+            PathStyle::Merged => (flows[0].len() + flows[1].len() + 2 * lines) as u64,
+            PathStyle::Whole => starts
+                .iter()
+                .zip(flows)
+                .map(|(starts, flow)| {
+                    let lengths = flow.lengths();
+                    starts.iter().map(|&(_, first)| 1 + u64::from(lengths[first as usize])).sum::<u64>()
+                })
+                .sum(),
+        };
+        let fits = points <= u64::from(u32::MAX)
+            && self.vertices.try_reserve_exact(points as usize).is_ok()
+            && self.offsets.try_reserve_exact(lines + 1).is_ok()
+            && self.saddles.try_reserve_exact(lines).is_ok()
+            && self.extrema.try_reserve_exact(lines).is_ok()
+            && self.kinds.try_reserve_exact(lines).is_ok();
+        if fits { Ok(()) } else { Err(FieldError::OutOfMemory { bytes: 4 * points + 13 * lines as u64 }) }
+    }
+
+    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, first: u32, passed: &mut [bool]) {
+        let start = self.vertices.len();
+        self.vertices.push(saddle);
+        let mut at = first;
+        loop {
+            let vertex = flow.vertex(at);
+            // Where cancelled paths lead back over the saddle, the line begins there.
+            if vertex == saddle {
+                self.vertices.truncate(start);
+            }
+            self.vertices.push(vertex);
+            if passed.get_mut(at as usize).is_some_and(|passed| core::mem::replace(passed, true)) {
+                break;
+            }
+            match flow.next(at) {
+                Some(next) => at = next,
+                None => break,
+            }
+        }
+        self.offsets.push(self.vertices.len() as u32);
+    }
+}

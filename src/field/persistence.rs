@@ -1,0 +1,156 @@
+//! Extrema paired with saddles by persistence.
+
+use super::critical::CriticalKind;
+use super::direction::Sweep;
+use super::loops::essential_saddles;
+use super::merging::Merging;
+use super::order::VertexOrder;
+use super::saddles::Saddles;
+use super::sorting::{ascending_bits, sort_by_key};
+use super::steepest::{Steepest, Steepness};
+use crate::error::Error;
+use crate::mesh::{LinkKind, TriMesh};
+
+/// An extremum and the saddle at which its component of the sublevel or superlevel set joins that of an older one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PersistencePair {
+    /// The minimum or maximum.
+    pub extremum: u32,
+    /// The vertex at which its component ends.
+    pub saddle: u32,
+    /// Minimum or maximum.
+    pub kind: CriticalKind,
+    /// The lower of the two values.
+    pub birth: f64,
+    /// The higher of the two values.
+    pub death: f64,
+    /// death − birth, never negative.
+    pub persistence: f64,
+}
+
+/// The pairs of a field and what has no partner.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PersistenceDiagram {
+    /// The most persistent first.
+    pub pairs: Vec<PersistencePair>,
+    /// The lowest vertex of each component of the mesh, ascending by vertex.
+    pub essential_minima: Vec<u32>,
+    /// The highest vertex of each component of the mesh, ascending by vertex.
+    pub essential_maxima: Vec<u32>,
+    /// The vertices at which a loop appears in the sublevel sets that never bounds, once for each such loop, by ascending
+    /// (value, id): as many as the first Betti number of the mesh (with coefficients modulo 2).
+    pub essential_saddles: Vec<u32>,
+}
+
+/// Numbers of extrema as steps over the persistence threshold: row k holds on `threshold[k]..threshold[k + 1]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PersistenceCurve {
+    /// In the units of the values; row 0 is 0.
+    pub threshold: Vec<f64>,
+    /// Minima of persistence above the threshold, essential ones included.
+    pub minima: Vec<u32>,
+    /// Maxima of persistence above the threshold, essential ones included.
+    pub maxima: Vec<u32>,
+}
+
+impl PersistenceDiagram {
+    /// How many extrema are more persistent than each threshold: what [`simplify`](super::simplify) leaves.
+    #[must_use]
+    pub fn curve(&self) -> PersistenceCurve {
+        let mut curve = PersistenceCurve::default();
+        let [mut minima, mut maxima] = [self.essential_minima.len() as u32, self.essential_maxima.len() as u32];
+        // Down from the highest threshold: the row of a threshold counts what comes before it in the list.
+        for (i, pair) in self.pairs.iter().enumerate() {
+            if i == 0 || pair.persistence != self.pairs[i - 1].persistence {
+                curve.push(pair.persistence, minima, maxima);
+            }
+            match pair.kind {
+                CriticalKind::Minimum => minima += 1,
+                _ => maxima += 1,
+            }
+        }
+        if curve.threshold.last() != Some(&0.0) {
+            curve.push(0.0, minima, maxima);
+        }
+        curve.threshold.reverse();
+        curve.minima.reverse();
+        curve.maxima.reverse();
+        curve
+    }
+}
+
+impl PersistenceCurve {
+    fn push(&mut self, threshold: f64, minima: u32, maxima: u32) {
+        self.threshold.push(threshold);
+        self.minima.push(minima);
+        self.maxima.push(maxima);
+    }
+}
+
+/// Pairs minima with saddles and saddles with maxima.
+///
+/// # Definition
+/// Vertices are added by ascending (value, id). A minimum begins a component; where components meet, that of the higher
+/// minimum ends, and this minimum is paired with the vertex at which they meet. Maxima likewise, from above \[Edelsbrunner02\].
+/// Persistence is the difference of the two values. The lowest and the highest vertex of every component of the mesh have no
+/// partner.
+///
+/// # Properties
+/// On a closed surface every unit of a saddle's multiplicity is in one pair or essential, so that
+/// (minima + maxima) − (pairs + essential saddles) = χ. On any triangle complex χ = b₀ − b₁ + b₂, with b₀ the essential minima
+/// and b₁ the essential saddles. Linear time, but for sorting the saddles; more where the mesh is not a manifold.
+///
+/// # Units
+/// Those of the values.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let diagram = field::persistence(&torus, &height)?;
+/// assert_eq!((diagram.pairs.len(), diagram.essential_saddles.len()), (0, 2));
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn persistence(mesh: &TriMesh, values: &[f64]) -> Result<PersistenceDiagram, Error> {
+    let order = VertexOrder::new(values, mesh.vertex_count())?;
+    let saddles = Saddles::new(mesh, order, Steepness::Value);
+    let ascending = saddles.ascending(values);
+    let steepest = Steepest::new(mesh, order, Steepness::Value);
+    let mut diagram = PersistenceDiagram {
+        essential_saddles: essential_saddles(mesh, order, &saddles, &ascending, &steepest),
+        ..PersistenceDiagram::default()
+    };
+    let mut pairs = Vec::new();
+    for (sweep, paths) in [(Sweep::upwards(order), steepest.down), (Sweep::downwards(order), steepest.up)] {
+        let kind = if sweep.is_downwards() { CriticalKind::Maximum } else { CriticalKind::Minimum };
+        let mut merging = Merging::new(sweep, paths);
+        merging.visit(&saddles, &ascending, |saddle, merged| {
+            let (a, b) = (order.values()[merged.ended as usize], order.values()[saddle as usize]);
+            let (birth, death) = if a < b { (a, b) } else { (b, a) };
+            pairs.push(PersistencePair {
+                extremum: merged.ended,
+                saddle,
+                kind,
+                birth,
+                death,
+                persistence: death - birth,
+            });
+        });
+        let kinds = mesh.connectivity().link_kinds();
+        let essential = (0..values.len() as u32)
+            .filter(|&v| merging.is_root(v) && kinds[v as usize] != LinkKind::Isolated)
+            .collect();
+        match kind {
+            CriticalKind::Minimum => diagram.essential_minima = essential,
+            _ => diagram.essential_maxima = essential,
+        }
+    }
+    let mut ranked: Vec<u32> = (0..pairs.len() as u32).collect();
+    sort_by_key(&mut ranked, &|i| !ascending_bits(pairs[i as usize].persistence));
+    diagram.pairs = ranked.iter().map(|&i| pairs[i as usize]).collect();
+    Ok(diagram)
+}

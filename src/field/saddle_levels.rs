@@ -1,0 +1,77 @@
+//! Levels just below and just above saddles, where level sets change their shape.
+
+use super::critical::{CriticalKind, exact};
+use super::level_set::MOST_LEVELS;
+use super::order::{VertexOrder, sort, value_range};
+use crate::error::{Error, FieldError, OptionError};
+use crate::mesh::TriMesh;
+
+/// Two levels for each value of a saddle, or of the given vertices: one just below and one just above.
+///
+/// # Definition
+/// For a value c and `offset` o, relative to the range R of the field: c − oR and c + oR, the latter at least the next double
+/// after c. [`level_sets`](super::level_sets) takes a vertex at its level for one above, so for o = 0 the lines of c pass below
+/// the vertex, those of the next double above it, and both touch it.
+///
+/// # Properties
+/// Ascending, each level once, so fewer than two for each value where values or levels coincide. The vertices need not be saddles.
+/// By default every saddle of [`critical_points`](super::critical_points) at δ = 0 is taken.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `IndexOutOfBounds` for a vertex that does not exist; `InvalidOption` where
+/// `offset` is negative or not finite, and for more than 10,000 levels.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let levels = field::saddle_levels(&torus, &height, None, 0.0)?;
+/// let sets = field::level_sets(&torus, &height, &levels)?;
+/// // One circle below the lower saddle, two between the two, one above the upper one.
+/// let lines = levels.iter().map(|level| sets.levels.iter().filter(|&at| at == level).count());
+/// assert_eq!(lines.collect::<Vec<_>>(), [1, 2, 2, 1]);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn saddle_levels(mesh: &TriMesh, values: &[f64], vertices: Option<&[u32]>, offset: f64) -> Result<Vec<f64>, Error> {
+    let connectivity = mesh.connectivity();
+    let range = value_range(connectivity, values)?;
+    if !(offset.is_finite() && offset >= 0.0) {
+        let expected = "a finite number that is not negative".to_owned();
+        return Err(OptionError::InvalidOption { option: "offset".to_owned(), expected }.into());
+    }
+    let at: Vec<f64> = match vertices {
+        Some(vertices) => {
+            if let Some(&index) = vertices.iter().find(|&&v| v as usize >= values.len()) {
+                return Err(FieldError::IndexOutOfBounds { index, vertices: values.len() }.into());
+            }
+            vertices.iter().map(|&v| values[v as usize]).collect()
+        }
+        None => {
+            let found = exact(connectivity, VertexOrder::new(values, values.len())?);
+            let saddles = found.points.iter().filter(|p| p.kind == CriticalKind::Saddle);
+            saddles.map(|p| values[p.vertex as usize]).collect()
+        }
+    };
+    let at = distinct(&at);
+    // Those beyond the finite numbers have no lines.
+    let width = (offset * range.length()).min(f64::MAX);
+    let levels: Vec<f64> =
+        at.iter().flat_map(|&c| [c - width, (c + width).max(c.next_up())]).filter(|level| level.is_finite()).collect();
+    let levels = distinct(&levels);
+    if levels.len() > MOST_LEVELS {
+        let expected = format!(
+            "saddles with at most {} different values: name those that matter, or smooth the field first",
+            MOST_LEVELS / 2
+        );
+        return Err(OptionError::InvalidOption { option: "saddles".to_owned(), expected }.into());
+    }
+    Ok(levels)
+}
+
+/// Ascending, each once.
+pub(super) fn distinct(numbers: &[f64]) -> Vec<f64> {
+    let (mut sorted, _) = sort(numbers);
+    sorted.dedup();
+    sorted
+}

@@ -1,0 +1,173 @@
+//! A field with fewer extrema, as near to the given one as can be: ε-simplification.
+
+use super::critical::{CriticalKind, DeltaOptions, critical_points};
+use super::direction::Sweep;
+use super::flats::{Role, ordered};
+use super::flooding::{flood, flood_along};
+use super::merging::Merging;
+use super::order::{VertexOrder, value_range};
+use super::saddles::Saddles;
+use super::sorting::sort_by_value;
+use super::steepest::{Steepest, Steepness};
+use super::tilt::tilted;
+use crate::error::{Error, FieldError, OptionError};
+use crate::mesh::{LinkKind, TriMesh};
+
+/// What a threshold is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ThresholdScale {
+    /// A fraction of the range of the field. The default.
+    #[default]
+    Relative,
+    /// The units of the values.
+    Absolute,
+}
+
+/// The extrema that [`simplify`] leaves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Keep<'a> {
+    /// Those of persistence above the threshold, and the lowest and highest vertex of every component.
+    Above {
+        /// The threshold, at least 0.
+        threshold: f64,
+        /// What it is measured in.
+        scale: ThresholdScale,
+    },
+    /// These minima and maxima, at least one of each in every component.
+    Extrema(&'a [u32]),
+}
+
+/// Computes a field that has no other extrema than the wanted ones.
+///
+/// # Definition
+/// First every value rises to the least height from which a path that never climbs above it leads to a wanted minimum; then
+/// every value sinks to the greatest height from which a path that never drops below it leads to a wanted maximum. What
+/// became flat is tilted by the smallest steps that doubles have, so that the extrema by (value, id) are exactly the wanted
+/// ones; this is checked before the field is returned. With a threshold this is ε-simplification \[Edelsbrunner06\].
+///
+/// # Properties
+/// With a threshold, no value changes by more than it (where persistence equals the threshold to the last bit, on both sides
+/// of one flat region, the tilt may come on top). On closed surfaces saddles then number minima + maxima − χ. Where a
+/// vertex was not involved, its value is unchanged. O(n) but for sorting.
+///
+/// # Units
+/// Those of the values.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for a threshold that is negative or not finite;
+/// `IndexOutOfBounds`, `NotAnExtremum` for what is to be kept, `Unconstrained` where a component keeps no minimum or no
+/// maximum; `UnavoidableExtremum` where the mesh hangs together in a single vertex and has no such field.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let sphere = shapes::irregular_sphere(500, 1)?;
+/// let bumpy: Vec<f64> = sphere.positions().chunks_exact(3).enumerate().map(|(v, p)| p[2] + 0.1 * f64::from(v as u32 % 7)).collect();
+/// let keep = field::Keep::Above { threshold: 0.4, scale: field::ThresholdScale::Relative };
+/// let simple = field::simplify(&sphere, &bumpy, keep)?;
+/// let counts = field::critical_points(&sphere, &simple, &field::DeltaOptions::default())?.counts;
+/// assert_eq!((counts.minima, counts.maxima, counts.saddles), (1, 1, 0));
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f64>, Error> {
+    let order = VertexOrder::new(values, mesh.vertex_count())?;
+    let (roles, bound, filled) = match keep {
+        Keep::Above { threshold, scale } => {
+            if !(threshold.is_finite() && threshold >= 0.0) {
+                let expected = "a finite number that is not negative".to_owned();
+                return Err(OptionError::InvalidOption { option: "threshold".to_owned(), expected }.into());
+            }
+            let bound = match scale {
+                ThresholdScale::Absolute => threshold,
+                ThresholdScale::Relative => threshold * value_range(mesh.connectivity(), values)?.length(),
+            };
+            let (roles, filled) = persistent(mesh, order, bound)?;
+            (roles, bound, filled)
+        }
+        Keep::Extrema(vertices) => {
+            let roles = named(mesh, values, vertices)?;
+            let filled = flood(mesh, order, false, &having(&roles, Role::Minimum))?;
+            (roles, f64::INFINITY, filled)
+        }
+    };
+    let between = VertexOrder::new(&filled, filled.len())?;
+    let levels = flood(mesh, between, true, &having(&roles, Role::Maximum))?;
+    drop(filled);
+    let mut sequence = ordered(mesh.connectivity(), &levels, &roles);
+    sort_by_value(&mut sequence, &levels);
+    let simple = tilted(mesh.connectivity(), &levels, &sequence, values, bound);
+    check(mesh, &simple, &roles)?;
+    Ok(simple)
+}
+
+fn having(roles: &[Role], wanted: Role) -> Vec<bool> {
+    roles.iter().map(|&role| role == wanted).collect()
+}
+
+/// Roles by persistence, and the field with its basins filled, for which the same saddles serve.
+fn persistent(mesh: &TriMesh, order: VertexOrder<'_>, bound: f64) -> Result<(Vec<Role>, Vec<f64>), FieldError> {
+    let values = order.values();
+    let saddles = Saddles::new(mesh, order, Steepness::Value);
+    let ascending = saddles.ascending(values);
+    let steepest = Steepest::new(mesh, order, Steepness::Value);
+    let mut roles = vec![Role::Ordinary; values.len()];
+    for (sweep, paths, role) in
+        [(Sweep::upwards(order), &steepest.down, Role::Minimum), (Sweep::downwards(order), &steepest.up, Role::Maximum)]
+    {
+        let mut merging = Merging::new(sweep, paths.clone());
+        merging.visit(&saddles, &ascending, |saddle, merged| {
+            let persistence = (values[merged.ended as usize] - values[saddle as usize]).abs();
+            if persistence > bound {
+                roles[merged.ended as usize] = role;
+            }
+        });
+        for (v, &kind) in mesh.connectivity().link_kinds().iter().enumerate() {
+            if merging.is_root(v as u32) && kind != LinkKind::Isolated {
+                roles[v] = role;
+            }
+        }
+    }
+    let filled =
+        flood_along(mesh, Sweep::upwards(order), steepest.down, &saddles, &ascending, &having(&roles, Role::Minimum))?;
+    Ok((roles, filled))
+}
+
+/// Roles of extrema that the caller names.
+fn named(mesh: &TriMesh, values: &[f64], vertices: &[u32]) -> Result<Vec<Role>, Error> {
+    let mut extrema = vec![Role::Ordinary; values.len()];
+    for point in critical_points(mesh, values, &DeltaOptions::default())?.points {
+        extrema[point.vertex as usize] = role_of(point.kind);
+    }
+    let mut roles = vec![Role::Ordinary; values.len()];
+    for &vertex in vertices {
+        match extrema.get(vertex as usize) {
+            None => return Err(FieldError::IndexOutOfBounds { index: vertex, vertices: values.len() }.into()),
+            Some(Role::Ordinary) => return Err(FieldError::NotAnExtremum { vertex }.into()),
+            Some(&role) => roles[vertex as usize] = role,
+        }
+    }
+    Ok(roles)
+}
+
+fn role_of(kind: CriticalKind) -> Role {
+    match kind {
+        CriticalKind::Minimum => Role::Minimum,
+        CriticalKind::Maximum => Role::Maximum,
+        CriticalKind::Saddle => Role::Ordinary,
+    }
+}
+
+/// Never assumed: the extrema of the result are the wanted ones.
+fn check(mesh: &TriMesh, simple: &[f64], roles: &[Role]) -> Result<(), Error> {
+    let mut missing = roles.to_vec();
+    for point in critical_points(mesh, simple, &DeltaOptions::default())?.points {
+        let (vertex, role) = (point.vertex, role_of(point.kind));
+        if role != Role::Ordinary && core::mem::replace(&mut missing[vertex as usize], Role::Ordinary) != role {
+            return Err(FieldError::UnavoidableExtremum { vertex }.into());
+        }
+    }
+    match missing.iter().position(|&role| role != Role::Ordinary) {
+        Some(vertex) => Err(FieldError::UnavoidableExtremum { vertex: vertex as u32 }.into()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,62 @@
+//! `TriMesh.criticalPoints` and `TriMesh.deltaHierarchy`.
+
+use js_sys::{Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
+use wasm_bindgen::prelude::*;
+
+use super::convert::{floats, object};
+use super::error::{Thrown, set};
+use super::mesh::RawTriMesh;
+use super::options::read;
+use crate::field::{self, CriticalKind};
+
+#[wasm_bindgen]
+#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+impl RawTriMesh {
+    #[wasm_bindgen(js_name = criticalPoints)]
+    pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let options = read(options, &[&["delta", "deltaIs", "link", "rule"]])?.delta()?;
+        let found = field::critical_points(self.mesh(), &floats(values)?, &options)?;
+        let points = &found.points;
+        let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
+        let kinds: Vec<i8> = points.iter().map(|p| sign(p.kind)).collect();
+        let multiplicities: Vec<u32> = points.iter().map(|p| p.multiplicity).collect();
+        let on_boundary: Vec<u8> = points.iter().map(|p| u8::from(p.on_boundary)).collect();
+        let result = Object::new();
+        set(&result, "vertices", &Uint32Array::from(vertices.as_slice()));
+        set(&result, "kinds", &Int8Array::from(kinds.as_slice()));
+        set(&result, "multiplicities", &Uint32Array::from(multiplicities.as_slice()));
+        set(&result, "onBoundary", &Uint8Array::from(on_boundary.as_slice()));
+        set(&result, "counts", &object(&found.counts));
+        Ok(result)
+    }
+
+    #[wasm_bindgen(js_name = deltaHierarchy)]
+    pub fn delta_hierarchy(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let link = read(options, &[&["link"]])?.delta()?.link;
+        let found = field::delta_hierarchy(self.mesh(), &floats(values)?, link)?;
+        let (points, curve) = (&found.points, &found.curve);
+        let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
+        let kinds: Vec<i8> = points.iter().map(|p| sign(p.kind)).collect();
+        let vanishes_at: Vec<f64> = points.iter().map(|p| p.vanishes_at).collect();
+        let vanishes_at_absolute: Vec<f64> = points.iter().map(|p| p.vanishes_at_absolute).collect();
+        let result = Object::new();
+        set(&result, "vertices", &Uint32Array::from(vertices.as_slice()));
+        set(&result, "kinds", &Int8Array::from(kinds.as_slice()));
+        set(&result, "vanishesAt", &Float64Array::from(vanishes_at.as_slice()));
+        set(&result, "vanishesAtAbsolute", &Float64Array::from(vanishes_at_absolute.as_slice()));
+        set(&result, "delta", &Float64Array::from(curve.delta.as_slice()));
+        set(&result, "minima", &Uint32Array::from(curve.minima.as_slice()));
+        set(&result, "maxima", &Uint32Array::from(curve.maxima.as_slice()));
+        set(&result, "saddles", &Uint32Array::from(curve.saddles.as_slice()));
+        Ok(result)
+    }
+}
+
+/// −1, 0 or 1.
+pub(super) fn sign(kind: CriticalKind) -> i8 {
+    match kind {
+        CriticalKind::Minimum => -1,
+        CriticalKind::Saddle => 0,
+        CriticalKind::Maximum => 1,
+    }
+}

@@ -1,0 +1,202 @@
+//! ε-simplification: exactly the wanted extrema, and no value farther off than the threshold.
+
+use std::collections::BTreeSet;
+
+use morse_smooth::field::{
+    CriticalKind, DeltaOptions, Keep, ThresholdScale, critical_points, persistence, simplify, value_range,
+};
+use morse_smooth::mesh::{TriMesh, shapes};
+use proptest::prelude::*;
+
+use crate::support::{bow_tie, every_kind, islands, noise, random_surface, shuffle, tied, two_tetrahedra_at_a_vertex};
+
+fn extrema(mesh: &TriMesh, values: &[f64]) -> BTreeSet<(u32, CriticalKind)> {
+    let points = critical_points(mesh, values, &DeltaOptions::default()).expect("a field").points;
+    points.iter().filter(|p| p.kind != CriticalKind::Saddle).map(|p| (p.vertex, p.kind)).collect()
+}
+
+/// What the threshold is to leave, by the pairs.
+fn above(mesh: &TriMesh, values: &[f64], threshold: f64) -> BTreeSet<(u32, CriticalKind)> {
+    let diagram = persistence(mesh, values).expect("a field");
+    let mut kept: BTreeSet<(u32, CriticalKind)> =
+        diagram.pairs.iter().filter(|p| p.persistence > threshold).map(|p| (p.extremum, p.kind)).collect();
+    kept.extend(diagram.essential_minima.iter().map(|&v| (v, CriticalKind::Minimum)));
+    kept.extend(diagram.essential_maxima.iter().map(|&v| (v, CriticalKind::Maximum)));
+    kept
+}
+
+fn largest_change(before: &[f64], after: &[f64]) -> f64 {
+    before.iter().zip(after).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn is_surface(mesh: &TriMesh) -> bool {
+    mesh.topology().non_manifold_vertices == 0 && mesh.topology().non_manifold_edges == 0
+}
+
+fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
+    let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+    let wanted = above(mesh, values, threshold);
+    let simple = match simplify(mesh, values, keep) {
+        Ok(simple) => simple,
+        Err(error) => {
+            assert_eq!(error.code(), "UnavoidableExtremum", "{name}: {error}");
+            assert!(!is_surface(mesh), "{name}: {error}");
+            return;
+        }
+    };
+    assert_eq!(extrema(mesh, &simple), wanted, "{name}, threshold {threshold}");
+    let change = largest_change(values, &simple);
+    // What is exactly as persistent as the threshold leaves no room for the tilt.
+    let exact = persistence(mesh, values).unwrap().pairs.iter().any(|p| p.persistence == threshold);
+    let tilt = if exact { values.len() as f64 * f64::EPSILON * (2.0 + threshold) } else { 0.0 };
+    assert!(change <= threshold + tilt, "{name}: {change} for {threshold}");
+    if mesh.topology().closed && is_surface(mesh) {
+        let counts = critical_points(mesh, &simple, &DeltaOptions::default()).unwrap().counts;
+        let isolated = mesh.topology().isolated_vertices as i64;
+        let sum = i64::from(counts.minima) + i64::from(counts.maxima) - i64::from(counts.saddles);
+        assert_eq!(sum + isolated, mesh.topology().euler_characteristic, "{name}");
+    }
+}
+
+#[test]
+fn a_threshold_leaves_exactly_the_more_persistent_extrema() {
+    for (name, mesh) in every_kind() {
+        let n = mesh.vertex_count();
+        for seed in 0..4 {
+            let noise = noise(n, seed);
+            for threshold in [0.0, 0.1, 0.5, 1.3, 5.0] {
+                check_threshold(&format!("{name}, noise {seed}"), &mesh, &noise, threshold);
+            }
+            for steps in [1.0, 3.0, 20.0] {
+                let tied = tied(n, seed, steps);
+                let step = value_range(mesh.connectivity(), &tied).unwrap().length() / steps;
+                for threshold in [0.0, 0.4 * step, 1.4 * step, 30.0] {
+                    check_threshold(&format!("{name}, {steps} steps {seed}"), &mesh, &tied, threshold);
+                }
+            }
+        }
+        check_threshold(&format!("{name}, constant"), &mesh, &vec![-7.5; n], 0.0);
+        check_threshold(&format!("{name}, constant"), &mesh, &vec![0.0; n], 1.0);
+    }
+}
+
+#[test]
+fn named_extrema_stay_and_no_others() {
+    for (name, mesh) in every_kind().into_iter().filter(|(_, mesh)| is_surface(mesh)) {
+        let n = mesh.vertex_count();
+        for seed in 0..6_u64 {
+            for values in [noise(n, seed), tied(n, seed, 4.0)] {
+                let mut random = shapes::Random::new(seed);
+                let diagram = persistence(&mesh, &values).unwrap();
+                let mut wanted = above(&mesh, &values, f64::INFINITY);
+                let mut others: Vec<(u32, CriticalKind)> = diagram.pairs.iter().map(|p| (p.extremum, p.kind)).collect();
+                shuffle(&mut others, &mut random);
+                others.truncate((random.uniform() * (others.len() + 1) as f64) as usize);
+                // Lower maxima in place of higher ones, and the other way round, as long as every part has one.
+                if mesh.topology().components == 1 && seed % 2 == 1 {
+                    for kind in [CriticalKind::Minimum, CriticalKind::Maximum] {
+                        if others.iter().any(|&(_, other)| other == kind) {
+                            wanted.retain(|&(_, other)| other != kind);
+                        }
+                    }
+                }
+                wanted.extend(others);
+                let keep: Vec<u32> = wanted.iter().map(|&(v, _)| v).collect();
+                let simple = simplify(&mesh, &values, Keep::Extrema(&keep)).unwrap_or_else(|e| panic!("{name}: {e}"));
+                assert_eq!(extrema(&mesh, &simple), wanted, "{name}, seed {seed}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn surfaces_with_holes(seed: u64, removed in 0.0_f64..0.4, steps in 1_u8..40, threshold in 0.0_f64..2.0) {
+        for base in [shapes::torus(9, 7, 0.3).unwrap(), shapes::grid(9, 8).unwrap()] {
+            let surface = random_surface(seed, &base, removed);
+            check_threshold("surface", &surface, &tied(surface.vertex_count(), seed ^ 2, f64::from(steps)), threshold);
+        }
+    }
+}
+
+#[test]
+fn whole_numbers_are_cut_at_exactly_their_persistence() {
+    // Heights in whole metres, and a threshold that is the persistence of many pairs to the last bit.
+    let terrain = shapes::grid(40, 40).unwrap();
+    for seed in 0..5 {
+        let heights: Vec<f64> = tied(terrain.vertex_count(), seed, 12.0).iter().map(|h| (h * 6.0).round()).collect();
+        for threshold in [1.0, 2.0, 5.0] {
+            let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+            let simple = simplify(&terrain, &heights, keep).unwrap();
+            assert_eq!(extrema(&terrain, &simple), above(&terrain, &heights, threshold));
+            let change = largest_change(&heights, &simple);
+            assert!(change <= threshold * (1.0 + 1e-12), "{change} for {threshold}");
+        }
+    }
+}
+
+#[test]
+fn a_smooth_field_is_left_alone() {
+    let torus = shapes::torus(60, 40, 0.0).unwrap();
+    let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+    let keep = Keep::Above { threshold: 0.05, scale: ThresholdScale::Relative };
+    assert_eq!(simplify(&torus, &height, keep).unwrap(), height);
+}
+
+#[test]
+fn ties_are_untied() {
+    let grid = shapes::grid(30, 30).unwrap();
+    let simple =
+        simplify(&grid, &vec![1.0; 900], Keep::Above { threshold: 0.0, scale: ThresholdScale::Relative }).unwrap();
+    assert_eq!(extrema(&grid, &simple), BTreeSet::from([(0, CriticalKind::Minimum), (899, CriticalKind::Maximum)]));
+    // A few steps in all.
+    assert!(simple.iter().all(|&v| (v - 1.0).abs() < 900.0 * f64::EPSILON));
+}
+
+#[test]
+fn sheets_that_hang_together_in_a_vertex_may_have_no_room() {
+    // The second tetrahedron is as good as flat, but one of its vertices must be its highest or its lowest.
+    let pinched = two_tetrahedra_at_a_vertex();
+    let values = [0.0, -9.0, 9.0, 5.0, 0.1, 0.1, 0.2];
+    let error =
+        simplify(&pinched, &values, Keep::Above { threshold: 1.0, scale: ThresholdScale::Absolute }).unwrap_err();
+    assert_eq!(error.code(), "UnavoidableExtremum");
+    let triangles = bow_tie();
+    let error = simplify(
+        &triangles,
+        &[0.0, -9.0, 9.0, 0.1, 0.1],
+        Keep::Above { threshold: 1.0, scale: ThresholdScale::Absolute },
+    );
+    assert_eq!(error.unwrap_err().code(), "UnavoidableExtremum");
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let torus = shapes::torus(12, 8, 0.0).unwrap();
+    let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+    let above = |threshold| Keep::Above { threshold, scale: ThresholdScale::Relative };
+    let code = |values: &[f64], keep: Keep<'_>| simplify(&torus, values, keep).unwrap_err().code();
+    for threshold in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(code(&height, above(threshold)), "InvalidOption");
+    }
+    assert_eq!(code(&height[1..], above(0.1)), "LengthMismatch");
+    let mut holes = height.clone();
+    holes[5] = f64::INFINITY;
+    assert_eq!(code(&holes, above(0.1)), "NonFiniteValue");
+    assert_eq!(code(&height, Keep::Extrema(&[96])), "IndexOutOfBounds");
+    let diagram = persistence(&torus, &height).unwrap();
+    let (low, high) = (diagram.essential_minima[0], diagram.essential_maxima[0]);
+    assert_eq!(code(&height, Keep::Extrema(&[low, diagram.essential_saddles[0]])), "NotAnExtremum");
+    assert_eq!(code(&height, Keep::Extrema(&[low])), "Unconstrained");
+    assert_eq!(code(&height, Keep::Extrema(&[high])), "Unconstrained");
+    assert_eq!(code(&height, Keep::Extrema(&[])), "Unconstrained");
+    let islands = islands();
+    let values = noise(islands.vertex_count(), 1);
+    let diagram = persistence(&islands, &values).unwrap();
+    let first = [diagram.essential_minima[0], diagram.essential_maxima[0]];
+    let error = simplify(&islands, &values, Keep::Extrema(&first)).unwrap_err();
+    assert_eq!(error.code(), "Unconstrained");
+    assert!(error.to_string().contains("component 1"), "{error}");
+}
