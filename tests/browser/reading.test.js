@@ -66,9 +66,8 @@ function kept(threshold) {
 /** The plotting area of a plot, in pixels of the page. */
 const area = (id) => page.at(id).locator('.u-over').boundingBox();
 
-/** Where the dot of a pair is in the diagram. */
-async function dot(pair) {
-  const { x, y, width, height } = await area('diagram');
+/** Where the dot of a pair is in the diagram, whose plotting area is given. */
+function dot(pair, { x, y, width, height }) {
   const span = range[1] - range[0];
   const share = (value) => (value - range[0]) / span + MARGINS.low;
   return {
@@ -79,7 +78,8 @@ async function dot(pair) {
 
 /** The most persistent pair whose dot stands by itself. */
 async function lonelyPair() {
-  const dots = await Promise.all(Array.from({ length: 300 }, (_, pair) => dot(pair)));
+  const plot = await area('diagram');
+  const dots = Array.from({ length: 300 }, (_, pair) => dot(pair, plot));
   const pair = dots.findIndex(({ x, y }, k) =>
     dots.every((other, j) => j === k || Math.hypot(other.x - x, other.y - y) > 4),
   );
@@ -262,6 +262,48 @@ describe('simplifying', () => {
     const saved = readMesh(readFileSync(await download.path()));
     saved.mesh.free();
     expect(countsOf(saved.fields.noisy_simplified)).toEqual(await page.counts('after'));
+  });
+});
+
+describe('where simplification is impossible', () => {
+  // Two octahedra that share a vertex: the small one must have a minimum or a maximum of its own.
+  const octahedron = ([x, y, z], r, ids) => ({
+    corners: [
+      [x + r, y, z],
+      [x - r, y, z],
+      [x, y + r, z],
+      [x, y - r, z],
+      [x, y, z - r],
+    ],
+    faces: [
+      [0, 2, 5],
+      [2, 1, 5],
+      [1, 3, 5],
+      [3, 0, 5],
+      [2, 0, 4],
+      [1, 2, 4],
+      [3, 1, 4],
+      [0, 3, 4],
+    ].map((face) => face.map((k) => ids[k])),
+  });
+  const upper = octahedron([0, 0, 1], 1, [1, 2, 3, 4, 0, 5]);
+  const lower = octahedron([0, 0, -3], 3, [6, 7, 8, 9, 10, 0]);
+  const points = [[0, 0, 0], ...upper.corners.slice(0, 4), [0, 0, 2], ...lower.corners];
+  const lines = ['OFF', `${points.length} 16 0`, ...points.map((point) => point.join(' '))];
+  const off = [...lines, ...[...upper.faces, ...lower.faces].map((face) => `3 ${face.join(' ')}`), ''].join('\n');
+
+  test('the page says so, and goes back to what it shows', async () => {
+    await openTorus();
+    expect(await page.after(() => page.drop('two.off', Buffer.from(off)))).toBe('ready');
+    expect(await page.text('facts')).toMatch(/11 vertices.*16 triangles/);
+    expect(await simplify()).toBe('ready');
+    const counts = await page.counts('after');
+    expect(await type('persistence-number', 0.5)).toBe('error');
+    expect(await page.text('notice-code')).toBe('UnavoidableExtremum');
+    expect(await page.at('persistence-number').inputValue()).toBe('0.1');
+    expect(await page.counts('after')).toEqual(counts);
+    expect(await type('persistence-number', 0.05)).toBe('ready');
+    expect(await page.at('notice').isVisible()).toBe(false);
   });
 });
 

@@ -53,7 +53,7 @@ export class GlyphLayer {
 
   /** `rim`: the colour around the glyphs. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
   constructor({ rim = RIM, ghost = false, late = false }: { rim?: number; ghost?: boolean; late?: boolean } = {}) {
-    const hidden = { transparent: true, opacity: 0.4, depthFunc: GreaterDepth, depthWrite: false };
+    const hidden = { transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false };
     const see = ghost ? hidden : { transparent: late };
     for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {
       this.solids.set(kind, {

@@ -56,7 +56,7 @@ export class Curve {
           filter: powers,
           grid: { stroke: GRID, width: 1, filter: powers },
           ticks: { show: false },
-          values: (_plot, splits) => splits.map((value) => (value === null ? '' : whole(value))),
+          values: (plot, splits) => splits.map((value) => labelOf(plot, value)),
         }),
       ],
       series: [{}, ...lines],
@@ -175,4 +175,10 @@ function widthOf(_plot: uPlot, values: string[] | null): number {
 /** 1, 10, 100: what lies between them would be more lines than the curves are. */
 function powers(_plot: uPlot, splits: number[]): (number | null)[] {
   return splits.map((value) => (value === 0 || Number.isInteger(Math.log10(value)) ? value : null));
+}
+
+/** Where there is no room between 0 and 1, the 0 goes before. */
+function labelOf(plot: uPlot, value: number | null): string {
+  if (value === null || (value === 1 && plot.valToPos(0, 'y') - plot.valToPos(1, 'y') < 14)) return '';
+  return whole(value);
 }

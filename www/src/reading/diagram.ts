@@ -110,6 +110,7 @@ export class Diagram {
     line([low, edge], [high + width, edge], '#c3cad8', 1, [2, 3]);
     ctx.fillStyle = SOFT;
     ctx.font = `${14 * ratio}px ${FAMILY}`;
+    ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
     ctx.fillText('∞', this.plot.bbox.left + 2 * ratio, this.y(edge));
   }

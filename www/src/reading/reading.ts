@@ -99,6 +99,11 @@ export class Reading {
     this.events.overrides(this.selection.overrides);
   }
 
+  /** Where the line is cut short for want of room, the pointer shows it whole. */
+  private sayPair(text: string): void {
+    this.pairText.textContent = this.pairText.title = text;
+  }
+
   private redraw(): void {
     this.diagram.update(false);
     this.describePair();
@@ -148,18 +153,21 @@ export class Reading {
       const { minima, maxima, dropped } = selection.counts();
       const hidden = pairs.extrema.length - MOST;
       const more = hidden > 0 ? `; the ${whole(hidden)} least persistent pairs are not drawn` : '';
-      this.pairText.textContent = `Keeps ${plural(minima, 'minimum', 'minima')} and ${plural(maxima, 'maximum', 'maxima')}, drops ${plural(dropped, 'pair', 'pairs')}${more}`;
+      this.sayPair(
+        `Keeps ${plural(minima, 'minimum', 'minima')} and ${plural(maxima, 'maximum', 'maxima')}, drops ${plural(dropped, 'pair', 'pairs')}${more}`,
+      );
       return;
     }
     const pair = this.pointed;
     const isMinimum = pairs.kinds[pair]! < 0;
     const [first, second] = isMinimum ? [pairs.birth, pairs.death] : [pairs.death, pairs.birth];
     const share = selection.width > 0 ? pairs.persistence[pair]! / selection.width : 0;
-    this.pairText.textContent =
+    this.sayPair(
       `${isMinimum ? 'Minimum' : 'Maximum'} ${pairs.extrema[pair]} (${short(first[pair]!)}), ` +
-      `saddle ${pairs.saddles[pair]} (${short(second[pair]!)}): ` +
-      `${short(100 * share)} %, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
-      (selection.isDecided(pair) ? ' by you' : '');
+        `saddle ${pairs.saddles[pair]} (${short(second[pair]!)}): ` +
+        `${short(100 * share)} %, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
+        (selection.isDecided(pair) ? ' by you' : ''),
+    );
   }
 }
 
