@@ -57,6 +57,8 @@ export class Controls {
   private readonly colouring = select('colouring');
   private readonly levelPlaces = select('level-places');
   private readonly complex = input('show-complex');
+  /** What is shown or not without being computed anew. */
+  private readonly layerBoxes = [input('show-glyphs'), input('show-levels'), input('show-edges')] as const;
   private readonly example = select('example');
 
   constructor(
@@ -101,6 +103,7 @@ export class Controls {
     this.writeDelta(settings.delta);
     this.writePersistence(settings.persistence);
     this.showMethod();
+    this.showLayers();
   }
 
   setFields(fields: readonly FieldEntry[], chosen: string): void {
@@ -161,6 +164,17 @@ export class Controls {
     for (const part of document.querySelectorAll<HTMLElement>('[data-for-method]'))
       part.hidden = part.dataset['forMethod'] !== this.method.value;
     element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
+  }
+
+  private showLayers(): void {
+    const [glyphs, levels, edges] = this.layerBoxes;
+    this.events.layers({
+      glyphs: glyphs.checked,
+      levels: levels.checked,
+      edges: edges.checked,
+      complex: this.complex.checked,
+      basins: this.colouring.value !== 'value',
+    });
   }
 
   private wireSettings(): void {
@@ -228,22 +242,11 @@ export class Controls {
 
   private wireDisplay(): void {
     const { events, complex, colouring } = this;
-    const glyphs = input('show-glyphs');
-    const levels = input('show-levels');
-    const edges = input('show-edges');
-    const layers = (): void =>
-      events.layers({
-        glyphs: glyphs.checked,
-        levels: levels.checked,
-        edges: edges.checked,
-        complex: complex.checked,
-        basins: colouring.value !== 'value',
-      });
-    for (const box of [glyphs, levels, edges]) box.addEventListener('change', layers);
+    for (const box of this.layerBoxes) box.addEventListener('change', () => this.showLayers());
     // These two have to be computed, too.
     for (const choice of [complex, colouring]) {
       choice.addEventListener('change', () => {
-        layers();
+        this.showLayers();
         events.settings();
       });
     }

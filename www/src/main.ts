@@ -133,6 +133,7 @@ function writeSettings(settings: Settings): void {
   controls.write(settings);
   reading.setState(settings.delta, settings.persistence, settings.overrides);
   for (const panel of Object.values(panels)) panel.setDelta(settings.delta);
+  nameColours();
 }
 
 /** They are about the pairs of one field. */
