@@ -137,17 +137,64 @@ pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -
         DeltaScale::Absolute => options.delta,
         DeltaScale::Relative => options.delta * largest_edge_difference(connectivity, values),
     };
-    Ok(classify(connectivity, options, false, |i, j| {
+    let sign = |i: u32, j: u32| {
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
-    }))
+    };
+    Ok(classify(connectivity, options, false, &sweep(connectivity, sign), sign))
 }
 
 /// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
-#[inline(never)]
 pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
+    exact_from(connectivity, order, &exact_states(connectivity, order))
+}
+
+#[inline(never)]
+fn exact_from(connectivity: &Connectivity, order: VertexOrder<'_>, states: &[u32]) -> CriticalPoints {
     let options = DeltaOptions::default();
-    classify(connectivity, &options, true, |i, j| if order.is_below(i, j) { 1 } else { -1 })
+    classify(connectivity, &options, true, states, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
+}
+
+/// The critical points at δ = 0, and how near the values around them are.
+pub(super) struct Measured {
+    pub(super) found: CriticalPoints,
+    /// For every vertex, as the bits of a number: for one with changes of sign around it the least, over the link edges with
+    /// ends on opposite sides, of |f_j − f_i| at the nearer end; for others the least over the link, with the sign bit set.
+    pub(super) nearest: Vec<u64>,
+    /// [`largest_edge_difference`].
+    pub(super) largest: f64,
+}
+
+/// As [`sweep`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
+#[inline(never)]
+pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> Measured {
+    let values = order.values();
+    let mut states = vec![0_u32; connectivity.vertex_count()];
+    let mut nearest = vec![u64::MAX; connectivity.vertex_count()];
+    let mut largest = 0_u64;
+    for &[a, b, c] in connectivity.triangles() {
+        let (f, g, h) = (values[a as usize], values[b as usize], values[c as usize]);
+        let (ab, bc, ca) = (order.is_below(a, b), order.is_below(b, c), order.is_below(c, a));
+        let (x, y, z) = ((g - f).abs().to_bits(), (h - g).abs().to_bits(), (f - h).abs().to_bits());
+        let (xy, yz, zx) = (x.min(y), y.min(z), z.min(x));
+        largest = largest.max(x.max(y).max(z));
+        // Three calls: a loop would not be unrolled.
+        let mut corner = |v: u32, next: bool, previous: bool, near: u64| {
+            // The vertex is below the next, and the previous one is below it: a change.
+            let is_change = u32::from(next == previous);
+            let (below, above) = (u32::from(!next | previous), u32::from(next | !previous));
+            let state = &mut states[v as usize];
+            *state = (*state + is_change * ONE_CHANGE) | (below * SAW_BELOW) | (above * SAW_ABOVE);
+            let near = near | u64::from(1 - is_change) << 63;
+            let known = &mut nearest[v as usize];
+            *known = near.min(*known);
+        };
+        corner(a, ab, ca, zx);
+        corner(b, bc, ab, xy);
+        corner(c, ca, bc, yz);
+    }
+    let found = exact_from(connectivity, order, &states);
+    Measured { found, nearest, largest: f64::from_bits(largest) }
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
@@ -161,6 +208,12 @@ pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f
         .iter()
         .map(|&[a, b]| (values[a as usize] - values[b as usize]).abs())
         .fold(0.0, |largest, x| if x > largest { x } else { largest })
+}
+
+/// The states of all vertices at δ = 0, see [`sweep`].
+#[inline(never)]
+pub(super) fn exact_states(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
+    sweep(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
 }
 
 /// Bits of the state that [`sweep`] leaves at a vertex: which signs its link vertices have, and above them the number of
@@ -178,11 +231,15 @@ pub(super) fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) 
     let mut states = vec![0_u32; connectivity.vertex_count()];
     for &[a, b, c] in connectivity.triangles() {
         let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));
-        for (v, next, previous) in [(a, ab, -ca), (b, bc, -ab), (c, ca, -bc)] {
+        // Three calls: a loop would not be unrolled.
+        let mut corner = |v: u32, next: i32, previous: i32| {
             let state = &mut states[v as usize];
             let change = u32::from(next * previous < 0) * ONE_CHANGE;
             *state = (*state + change) | (SAW_BELOW << (next + 1)) | (SAW_BELOW << (previous + 1));
-        }
+        };
+        corner(a, ab, -ca);
+        corner(b, bc, -ab);
+        corner(c, ca, -bc);
     }
     states
 }
@@ -191,9 +248,9 @@ fn classify(
     connectivity: &Connectivity,
     options: &DeltaOptions,
     exact: bool,
-    sign: impl Fn(u32, u32) -> i8 + Copy,
+    states: &[u32],
+    sign: impl Fn(u32, u32) -> i8,
 ) -> CriticalPoints {
-    let states = sweep(connectivity, sign);
     let mut scratch = LinkScratch::new(connectivity.vertex_count());
     let mut found = CriticalPoints::default();
     let mut index_sum = 0_i64;

@@ -1,14 +1,16 @@
 //! Orders the vertices of flat regions so that every one has a lower and a higher neighbour.
 
+use core::cmp::Ordering;
+
 use crate::mesh::{Connectivity, LinkKind};
 
-/// What becomes of a vertex.
+/// What becomes of a vertex, from bottom to top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// To be regular or a saddle.
-    Ordinary,
     /// To lie below all its neighbours.
     Minimum,
+    /// To be regular or a saddle.
+    Ordinary,
     /// To lie above all its neighbours.
     Maximum,
 }
@@ -27,8 +29,73 @@ const TOP: u32 = 1;
 const FIRST: u32 = 2;
 const NONE: u32 = u32::MAX;
 
-/// All vertices but isolated ones, so that if they are sorted by level without changing the order of equals, every ordinary
-/// vertex has a neighbour before and one behind it, as far as the mesh has room for that.
+/// What every vertex has for neighbours, on a surface of levels.
+#[derive(Debug)]
+pub(super) struct Surroundings {
+    bits: Vec<u8>,
+    /// The neighbours on the same level, in compressed rows.
+    offsets: Vec<u32>,
+    level: Vec<u32>,
+}
+
+impl Surroundings {
+    /// Two passes over the edges.
+    #[inline(never)]
+    pub(super) fn new(connectivity: &Connectivity, levels: &[f64], roles: &[Role]) -> Self {
+        let mut bits = vec![0_u8; levels.len()];
+        let mut offsets = vec![0_u32; levels.len() + 1];
+        for &[a, b] in connectivity.edges() {
+            let (a, b) = (a as usize, b as usize);
+            let (of_a, of_b) = if levels[a] < levels[b] {
+                (HIGHER, LOWER)
+            } else if levels[a] > levels[b] {
+                (LOWER, HIGHER)
+            } else {
+                offsets[a] += 1;
+                offsets[b] += 1;
+                match (roles[a] as u8).cmp(&(roles[b] as u8)) {
+                    Ordering::Less => (HIGHER, LOWER),
+                    Ordering::Greater => (LOWER, HIGHER),
+                    // The ends of an edge ascend.
+                    Ordering::Equal => (LEVEL | LEVEL_AFTER, LEVEL | LEVEL_BEFORE),
+                }
+            };
+            bits[a] |= of_a;
+            bits[b] |= of_b;
+        }
+        let mut total = 0;
+        for offset in &mut offsets {
+            total += *offset;
+            *offset = total;
+        }
+        // Filled from the ends, so that these become starts.
+        let mut level = vec![0; total as usize];
+        for &[a, b] in connectivity.edges() {
+            if levels[a as usize] == levels[b as usize] {
+                for (this, that) in [(a, b), (b, a)] {
+                    let place = &mut offsets[this as usize];
+                    *place -= 1;
+                    level[*place as usize] = that;
+                }
+            }
+        }
+        Self { bits, offsets, level }
+    }
+
+    /// The neighbours on the same level.
+    #[inline]
+    pub(super) fn level(&self, v: u32) -> &[u32] {
+        &self.level[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
+    }
+
+    #[inline]
+    fn has(&self, v: u32, bits: u8) -> bool {
+        self.bits[v as usize] & bits != 0
+    }
+}
+
+/// All vertices but isolated ones, so that on each level the minima come first and the maxima last, and every ordinary vertex
+/// of a flat region has a neighbour before and one behind it, as far as the mesh has room for that.
 ///
 /// # Definition
 /// A flat region, its minima and maxima taken out, gets a bottom (all its lower neighbours and wanted minima) and a top.
@@ -36,78 +103,54 @@ const NONE: u32 = u32::MAX;
 /// with a greater number. There is one where no single vertex cuts off others from both \[Tarjan86\], hence on every surface:
 /// around a vertex of a surface, the others hang together. A region where ids are such a numbering is left to them. Linear
 /// time.
-pub(super) fn ordered(connectivity: &Connectivity, levels: &[f64], roles: &[Role]) -> Vec<u32> {
-    let around = neighbourhoods(connectivity, levels, roles);
-    let mut order: Vec<u32> = Vec::with_capacity(levels.len());
-    let with_role = |role| (0..levels.len() as u32).filter(move |&v| roles[v as usize] == role);
-    order.extend(with_role(Role::Minimum));
+#[inline(never)]
+pub(super) fn ordered(connectivity: &Connectivity, around: &Surroundings, roles: &[Role]) -> Vec<u32> {
+    let mut order: Vec<u32> = Vec::with_capacity(roles.len());
+    let kinds = connectivity.link_kinds();
     let mut region = Region {
-        connectivity,
-        levels,
         roles,
-        around: &around,
-        numbers: vec![NONE; levels.len()],
+        around,
+        numbers: vec![NONE; roles.len()],
         counted: FIRST,
         vertices: Vec::new(),
         parents: Vec::new(),
         lows: Vec::new(),
         stack: Vec::new(),
+        next: Vec::new(),
+        previous: Vec::new(),
+        is_reached_from_below: Vec::new(),
     };
+    let all = 0..roles.len() as u32;
+    order.extend(all.clone().filter(|&v| roles[v as usize] == Role::Minimum));
     // From the top downwards; a region that nothing is above comes last and keeps a maximum.
-    for wanted in [HIGHER, 0] {
-        for v in with_role(Role::Ordinary) {
+    for wanted in [HIGHER, HIGHER | LEVEL] {
+        for v in all.clone() {
             let index = v as usize;
-            if connectivity.link_kinds()[index] == LinkKind::Isolated || region.numbers[index] != NONE {
+            if roles[index] != Role::Ordinary || kinds[index] == LinkKind::Isolated || region.numbers[index] != NONE {
                 continue;
             }
-            if around[index] & LEVEL == 0 {
+            if !around.has(v, LEVEL) {
                 region.numbers[index] = TOP;
                 order.push(v);
-            } else if around[index] & wanted == wanted {
+            } else if around.has(v, wanted) {
                 region.search(v);
                 if region.is_ordered_by_id() {
                     region.vertices.sort_unstable();
-                    order.extend(&region.vertices);
+                    order.extend_from_slice(&region.vertices);
                 } else {
                     region.number(&mut order);
                 }
             }
         }
     }
-    order.extend(with_role(Role::Maximum));
+    order.extend(all.filter(|&v| roles[v as usize] == Role::Maximum));
     order
-}
-
-/// One pass over the edges.
-fn neighbourhoods(connectivity: &Connectivity, levels: &[f64], roles: &[Role]) -> Vec<u8> {
-    let mut around = vec![0_u8; levels.len()];
-    for &[a, b] in connectivity.edges() {
-        let (a, b) = (a as usize, b as usize);
-        let height = |v: usize| match roles[v] {
-            Role::Minimum => -1,
-            Role::Ordinary => 0,
-            Role::Maximum => 1,
-        };
-        let (of_a, of_b) = if levels[a] == levels[b] && height(a) == height(b) {
-            // The ends of an edge ascend.
-            (LEVEL | LEVEL_AFTER, LEVEL | LEVEL_BEFORE)
-        } else if levels[a] < levels[b] || (levels[a] == levels[b] && height(a) < height(b)) {
-            (HIGHER, LOWER)
-        } else {
-            (LOWER, HIGHER)
-        };
-        around[a] |= of_a;
-        around[b] |= of_b;
-    }
-    around
 }
 
 /// One flat region after the other, searched depth first from a vertex next to the top.
 struct Region<'a> {
-    connectivity: &'a Connectivity,
-    levels: &'a [f64],
     roles: &'a [Role],
-    around: &'a [u8],
+    around: &'a Surroundings,
     /// In the order of discovery, going on from region to region.
     numbers: Vec<u32>,
     counted: u32,
@@ -116,8 +159,12 @@ struct Region<'a> {
     vertices: Vec<u32>,
     parents: Vec<u32>,
     lows: Vec<u32>,
-    /// Vertex and the place in its star to go on from, two corners for each triangle.
+    /// Vertex and the place among its level neighbours to go on from.
     stack: Vec<(u32, u32)>,
+    /// The numbering, a linked list.
+    next: Vec<u32>,
+    previous: Vec<u32>,
+    is_reached_from_below: Vec<bool>,
 }
 
 impl Region<'_> {
@@ -132,10 +179,12 @@ impl Region<'_> {
         self.vertices.push(v);
         self.parents.push(parent);
         let own = self.vertices.len() as u32 - 1 + FIRST;
-        self.lows.push(match self.around[v as usize] {
-            around if around & LOWER != 0 => BOTTOM,
-            around if around & HIGHER != 0 => TOP,
-            _ => own,
+        self.lows.push(if self.around.has(v, LOWER) {
+            BOTTOM
+        } else if self.around.has(v, HIGHER) {
+            TOP
+        } else {
+            own
         });
         self.stack.push((v, 0));
     }
@@ -145,63 +194,55 @@ impl Region<'_> {
         self.parents.clear();
         self.lows.clear();
         self.discover(root, TOP);
-        while let Some(&(v, step)) = self.stack.last() {
-            let star = self.connectivity.star(v);
+        while let Some(top) = self.stack.last_mut() {
+            let (v, step) = *top;
+            top.1 += 1;
             let own = self.own(self.numbers[v as usize]);
-            if step as usize == 2 * star.len() {
+            let low = (own - FIRST) as usize;
+            let Some(&w) = self.around.level(v).get(step as usize) else {
                 self.stack.pop();
-                let parent = self.parents[(own - FIRST) as usize];
+                let parent = self.parents[low];
                 if parent >= FIRST {
-                    let low = self.lows[(own - FIRST) as usize];
-                    let above = &mut self.lows[(parent - FIRST) as usize];
-                    *above = low.min(*above);
+                    let of_parent = (parent - FIRST) as usize;
+                    self.lows[of_parent] = self.lows[of_parent].min(self.lows[low]);
                 }
                 continue;
-            }
-            if let Some(top) = self.stack.last_mut() {
-                top.1 += 1;
-            }
-            let corners = self.connectivity.triangles()[star[step as usize / 2] as usize];
-            let mut others = corners.into_iter().filter(|&w| w != v);
-            let Some(w) = others.nth(step as usize % 2) else { continue };
-            if self.roles[w as usize] != Role::Ordinary || self.levels[w as usize] != self.levels[v as usize] {
+            };
+            if self.roles[w as usize] != Role::Ordinary {
                 continue;
             }
             match self.numbers[w as usize] {
                 NONE => self.discover(w, own),
-                number => {
-                    let other = self.own(number);
-                    let low = &mut self.lows[(own - FIRST) as usize];
-                    *low = other.min(*low);
-                }
+                number => self.lows[low] = self.lows[low].min(self.own(number)),
             }
         }
     }
 
     fn is_ordered_by_id(&self) -> bool {
-        self.vertices.iter().all(|&v| {
-            let around = self.around[v as usize];
-            around & (LOWER | LEVEL_BEFORE) != 0 && around & (HIGHER | LEVEL_AFTER) != 0
-        })
+        let has = |v, bits| self.around.has(v, bits);
+        self.vertices.iter().all(|&v| has(v, LOWER | LEVEL_BEFORE) && has(v, HIGHER | LEVEL_AFTER))
     }
 
     /// The st-numbering: every vertex is put just before or just behind the one it was found from, whichever keeps it between
     /// that one and the least one it can reach.
-    fn number(&self, order: &mut Vec<u32>) {
+    fn number(&mut self, order: &mut Vec<u32>) {
         let size = self.vertices.len() + FIRST as usize;
-        let (mut next, mut previous) = (vec![NONE; size], vec![NONE; size]);
+        let Self { next, previous, is_reached_from_below, .. } = self;
+        next.resize(size, NONE);
+        previous.resize(size, NONE);
         (next[BOTTOM as usize], previous[TOP as usize]) = (TOP, BOTTOM);
-        let mut reached_from_below = vec![false; size];
-        reached_from_below[BOTTOM as usize] = true;
+        is_reached_from_below.clear();
+        is_reached_from_below.resize(size, false);
+        is_reached_from_below[BOTTOM as usize] = true;
         for i in 0..self.vertices.len() {
             let (v, parent) = (i as u32 + FIRST, self.parents[i]);
-            let before = reached_from_below[self.lows[i] as usize] || parent == TOP;
+            let before = is_reached_from_below[self.lows[i] as usize] || parent == TOP;
             let (left, right) =
                 if before { (previous[parent as usize], parent) } else { (parent, next[parent as usize]) };
             (previous[v as usize], next[v as usize]) = (left, right);
             next[left as usize] = v;
             previous[right as usize] = v;
-            reached_from_below[parent as usize] = !before;
+            is_reached_from_below[parent as usize] = !before;
         }
         let mut at = next[BOTTOM as usize];
         while at != TOP {

@@ -4,7 +4,7 @@ use super::direction::Sweep;
 use super::merging::Merging;
 use super::order::VertexOrder;
 use super::saddles::Saddles;
-use super::steepest::{Steepest, Steepness};
+use super::steepest::Steepest;
 use crate::error::FieldError;
 use crate::mesh::{LinkKind, TriMesh};
 
@@ -25,13 +25,13 @@ pub(super) fn flood(
     downwards: bool,
     wanted: &[bool],
 ) -> Result<Vec<f64>, FieldError> {
-    let steepest = Steepest::new(mesh, order, Steepness::Value);
+    let steepest = Steepest::by_value(mesh.connectivity(), order);
     let (sweep, mut paths) =
         if downwards { (Sweep::downwards(order), steepest.up) } else { (Sweep::upwards(order), steepest.down) };
     for (v, _) in wanted.iter().enumerate().filter(|&(_, &wanted)| wanted) {
         paths[v] = v as u32;
     }
-    let saddles = Saddles::with_tips(mesh, order, Steepness::Value, wanted, downwards);
+    let saddles = Saddles::with_tips(mesh, order, wanted, downwards);
     let ascending = saddles.ascending(order.values());
     flood_along(mesh, sweep, paths, &saddles, &ascending, wanted)
 }
@@ -55,7 +55,7 @@ pub(super) fn flood_along(
         last: (0..values.len() as u32).collect(),
     };
     merging.visit(saddles, ascending, |saddle, merged| {
-        basins.join(merged.survivor, merged.ended, values[saddle as usize]);
+        basins.join(merged.survivor, merged.ended, values[saddles.get(saddle).vertex as usize]);
     });
     let kinds = mesh.connectivity().link_kinds();
     let dry = (0..values.len() as u32)

@@ -1,7 +1,7 @@
 //! At which δ every critical vertex stops being one, and so C_δ for all δ at once \[Patane09, section 3\].
 
-use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, exact, largest_edge_difference};
-use super::link::LinkScratch;
+use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, Measured, measured};
+use super::link::{FEW, LinkScratch};
 use super::order::VertexOrder;
 use crate::error::Error;
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
@@ -93,9 +93,16 @@ impl DeltaHierarchy {
 pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Result<DeltaHierarchy, Error> {
     let connectivity = mesh.connectivity();
     let order = VertexOrder::new(values, connectivity.vertex_count())?;
-    let found = exact(connectivity, order);
-    let largest = largest_edge_difference(connectivity, values);
-    let mut thresholds = Thresholds { connectivity, values, link, scratch: None, units: Vec::new(), upper: Vec::new() };
+    let Measured { found, nearest, largest } = measured(connectivity, order);
+    let mut thresholds = Thresholds {
+        connectivity,
+        values,
+        nearest: &nearest,
+        link,
+        scratch: None,
+        units: Vec::new(),
+        upper: Vec::new(),
+    };
     let mut points = Vec::with_capacity(found.points.len());
     let counts = found.counts;
     let mut keys = Vec::with_capacity((counts.minima + counts.maxima + counts.saddles) as usize);
@@ -117,10 +124,15 @@ pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Res
     Ok(DeltaHierarchy { points, curve, index_sum: counts.index_sum.unwrap_or_default() })
 }
 
+/// The bit of a number that has its sign.
+const SIGN: u64 = 1 << 63;
+
 /// Finds the absolute δ at which critical vertices vanish.
 struct Thresholds<'a> {
     connectivity: &'a Connectivity,
     values: &'a [f64],
+    /// See [`Measured`].
+    nearest: &'a [u64],
     link: LinkReading,
     /// Made for the first vertex that needs it: many fields have none.
     scratch: Option<LinkScratch>,
@@ -132,43 +144,33 @@ struct Thresholds<'a> {
 impl Thresholds<'_> {
     fn find(&mut self, point: &CriticalPoint) {
         let is_cycle = self.connectivity.link_kinds()[point.vertex as usize] == LinkKind::Cycle;
-        if point.kind != CriticalKind::Saddle {
-            self.extremum(point.vertex);
-        } else if is_cycle && self.link == LinkReading::Consecutive {
-            self.changes(point);
-        } else {
-            self.components(point.vertex, is_cycle);
-        }
-    }
-
-    /// A strict extremum lasts until δ reaches the nearest of its link vertices.
-    fn extremum(&mut self, vertex: u32) {
-        let value = self.values[vertex as usize];
-        let mut nearest = f64::INFINITY;
-        for [a, b] in self.connectivity.link(vertex) {
-            for v in [a, b] {
-                let distance = (self.values[v as usize] - value).abs();
-                nearest = if distance < nearest { distance } else { nearest };
-            }
-        }
+        let nearest = self.nearest[point.vertex as usize];
         self.units.clear();
-        self.units.push(nearest.to_bits());
+        if point.kind != CriticalKind::Saddle {
+            // A strict extremum lasts until δ reaches the nearest of its link vertices.
+            self.units.push(nearest & !SIGN);
+        } else if !is_cycle || self.link == LinkReading::Skip {
+            self.components(point.vertex, is_cycle);
+        } else if point.multiplicity == 1 {
+            // It has four link edges with its ends on opposite sides, and needs them all.
+            self.units.push(nearest);
+        } else {
+            self.changes(point.vertex);
+        }
     }
 
     /// A link edge with its ends on opposite sides counts until δ reaches the nearer one; a saddle of multiplicity k needs
     /// 2k + 2 of them.
-    fn changes(&mut self, saddle: &CriticalPoint) {
-        let value = self.values[saddle.vertex as usize];
-        self.units.clear();
-        for ends in self.connectivity.link(saddle.vertex) {
-            let [x, y] = ends.map(|v| self.values[v as usize] - value);
+    fn changes(&mut self, saddle: u32) {
+        let value = self.values[saddle as usize];
+        for [a, b] in self.connectivity.link(saddle) {
+            let (x, y) = (self.values[a as usize] - value, self.values[b as usize] - value);
+            // Where one is equal, what is counted or not is zero.
             if (x < 0.0) != (y < 0.0) {
-                let (x, y) = (x.abs(), y.abs());
-                let nearer = if x < y { x } else { y };
-                self.units.push(nearer.to_bits());
+                self.units.push(x.abs().min(y.abs()).to_bits());
             }
         }
-        // The bits of numbers that are not negative ascend with them.
+        // The bits of numbers that are not negative are ordered as the numbers are.
         self.units.sort_unstable();
         self.units.reverse();
         let mut units = 0;
@@ -211,14 +213,14 @@ fn relative(threshold: f64, largest: f64) -> f64 {
         return 0.0;
     }
     let reaches = |bits: u64| f64::from_bits(bits) * largest >= threshold;
-    // The quotient is at most a few units of rounding away; the threshold is the difference of an edge, so 1 is enough.
-    let quotient = (threshold / largest).to_bits();
-    let mut below = quotient.saturating_sub(3);
-    let mut enough = (quotient + 2).min(1.0_f64.to_bits());
-    if (reaches(below) && below > 0) || !reaches(enough) {
-        // But not where numbers are so small that they have few digits.
-        (below, enough) = (0, 1.0_f64.to_bits());
+    // The threshold is the difference of an edge, so 1 is enough. The quotient is a few units of rounding away at most, …
+    let first = (threshold / largest).to_bits().saturating_sub(3);
+    let steps: u64 = (0..5).map(|step| u64::from(!reaches(first + step))).sum();
+    if steps > 0 && reaches(first + steps) {
+        return f64::from_bits(first + steps);
     }
+    // … unless numbers are so small that they have few digits.
+    let (mut below, mut enough) = (0, 1.0_f64.to_bits());
     while enough - below > 1 {
         let middle = below + (enough - below) / 2;
         if reaches(middle) {
@@ -238,7 +240,7 @@ fn key(relative: f64, kind: CriticalKind) -> u64 {
 
 /// Sorts keys: into buckets of equal width over [0, 1] first, which for most fields hold few each.
 fn sorted(keys: &[u64]) -> Vec<u64> {
-    let buckets = (keys.len() / 4).max(1);
+    let buckets = (keys.len() / 2).max(1);
     let bucket = |key: u64| ((f64::from_bits(key >> 2) * buckets as f64) as usize).min(buckets - 1);
     let mut ends = vec![0_u32; buckets + 1];
     for &key in keys {
@@ -256,8 +258,21 @@ fn sorted(keys: &[u64]) -> Vec<u64> {
     }
     let mut start = 0;
     for &end in &ends[..buckets] {
-        sorted[start..end as usize].sort_unstable();
-        start = end as usize;
+        let end = end as usize;
+        if end - start > FEW {
+            sorted[start..end].sort_unstable();
+        }
+        start = end;
+    }
+    // Nothing is far from its place now.
+    for i in 1..sorted.len() {
+        let key = sorted[i];
+        let mut place = i;
+        while place > 0 && sorted[place - 1] > key {
+            sorted[place] = sorted[place - 1];
+            place -= 1;
+        }
+        sorted[place] = key;
     }
     sorted
 }

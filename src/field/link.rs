@@ -38,7 +38,7 @@ pub(super) struct LinkScratch {
 
 const NONE: u32 = u32::MAX;
 /// So few numbers are sorted fastest by insertion.
-const FEW: usize = 32;
+pub(super) const FEW: usize = 32;
 
 fn push_positive(ends: &mut Vec<u64>, end: f64) {
     if end > 0.0 {

@@ -62,6 +62,11 @@ impl LinkSides {
         &self.components
     }
 
+    /// How many of the components are lower ones.
+    pub(super) fn lower_components(&self) -> u32 {
+        self.components.iter().filter(|component| component.lower).count() as u32
+    }
+
     pub(super) fn members(&self, component: Component) -> &[u32] {
         &self.members[component.start as usize..component.end as usize]
     }
@@ -74,48 +79,57 @@ impl LinkSides {
         self.degrees.clear();
         self.edges.clear();
         self.beside.clear();
-        for ends in connectivity.link(vertex) {
-            let places = ends.map(|v| {
-                if self.places[v as usize] == NONE {
-                    self.places[v as usize] = self.nodes.len() as u32;
-                    self.nodes.push(v);
-                    self.degrees.push(0);
-                    self.beside.push([NONE; 2]);
-                }
-                self.places[v as usize]
-            });
-            self.edges.push(places);
-            for (this, that) in [(places[0], places[1]), (places[1], places[0])] {
-                let this = this as usize;
-                if let Some(free) = self.beside[this].get_mut(self.degrees[this] as usize) {
-                    *free = that;
-                }
-                self.degrees[this] += 1;
-            }
+        for &t in connectivity.star(vertex) {
+            let [a, b, c] = connectivity.triangles()[t as usize];
+            let (j, k) = if a == vertex {
+                (b, c)
+            } else if b == vertex {
+                (c, a)
+            } else {
+                (a, b)
+            };
+            let (j, k) = (self.place(j), self.place(k));
+            self.edges.push([j, k]);
+            self.put_beside(j, k);
+            self.put_beside(k, j);
         }
+    }
+
+    fn place(&mut self, v: u32) -> u32 {
+        let place = &mut self.places[v as usize];
+        if *place == NONE {
+            *place = self.nodes.len() as u32;
+            self.nodes.push(v);
+            self.degrees.push(0);
+            self.beside.push([NONE; 2]);
+        }
+        *place
+    }
+
+    fn put_beside(&mut self, this: u32, that: u32) {
+        let degree = &mut self.degrees[this as usize];
+        if *degree < 2 {
+            self.beside[this as usize][*degree as usize] = that;
+        }
+        *degree += 1;
     }
 
     /// Goes along a cycle or a path once.
     fn walk(&mut self, is_lower: impl Fn(u32) -> bool) {
         let lower = |this: &Self, place: u32| is_lower(this.nodes[place as usize]);
-        let end = (0..self.nodes.len() as u32).find(|&place| self.degrees[place as usize] == 1);
-        let (start, towards) = match end {
-            Some(end) => (end, self.beside[end as usize][0]),
-            // The first node of a lower component, where there is one: its neighbour behind is upper.
-            None => (0..self.nodes.len() as u32)
-                .filter(|&place| lower(self, place))
-                .find_map(|place| {
-                    let [a, b] = self.beside[place as usize];
-                    if !lower(self, a) {
-                        Some((place, b))
-                    } else if !lower(self, b) {
-                        Some((place, a))
-                    } else {
-                        None
-                    }
-                })
-                .unwrap_or((0, self.beside[0][0])),
-        };
+        let (mut start, mut towards) = (0, self.beside[0][0]);
+        for place in 0..self.nodes.len() as u32 {
+            let [a, b] = self.beside[place as usize];
+            if b == NONE {
+                // The end of a path.
+                (start, towards) = (place, a);
+                break;
+            }
+            // The first node of a lower component, where there is one: the neighbour behind it is upper.
+            if lower(self, place) && !(lower(self, a) && lower(self, b)) {
+                (start, towards) = (place, if lower(self, a) { a } else { b });
+            }
+        }
         let (mut here, mut next) = (start, towards);
         loop {
             let side = lower(self, here);

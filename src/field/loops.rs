@@ -8,58 +8,64 @@ use super::merging::Forest;
 use super::order::VertexOrder;
 use super::saddles::Saddles;
 use super::sorting::{sort_by_key, sort_by_value};
-use super::steepest::Steepest;
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
 
-/// The vertices of the essential classes of dimension one of the sublevel sets, by ascending (value, id).
+/// The vertices of the essential classes of dimension one of the sublevel sets, by ascending (value, id). `mergers` has for
+/// every saddle how many components merge there in the sweeps up and down, and `steepest_up` the highest neighbours.
 pub(super) fn essential_saddles(
     mesh: &TriMesh,
     order: VertexOrder<'_>,
     saddles: &Saddles,
     ascending: &[u32],
-    steepest: &Steepest,
+    mergers: &[[u32; 2]],
+    steepest_up: &[u32],
 ) -> Vec<u32> {
-    if mesh.connectivity().link_kinds().contains(&LinkKind::NonManifold) {
-        return Coboundaries::new(mesh.connectivity(), order).essential_saddles();
+    let connectivity = mesh.connectivity();
+    if connectivity.link_kinds().contains(&LinkKind::NonManifold) {
+        return Coboundaries::new(connectivity, order).essential_saddles();
     }
-    of_manifold(mesh.connectivity(), saddles, ascending, steepest)
+    // On a surface, l components of the lower link are l − 1 handles: each joins components of the sublevel set, or begins a
+    // loop. By duality a loop comes to bound where components of the superlevel set join.
+    let mut loops: Vec<u32> = (0..saddles.len() as u32)
+        .map(|i| saddles.get(i).lower_components.saturating_sub(1) - mergers[i as usize][0])
+        .collect();
+    if connectivity.special_vertices().is_empty() {
+        for (loops, mergers) in loops.iter_mut().zip(mergers) {
+            *loops -= mergers[1].min(*loops);
+        }
+    } else {
+        bound_from_beyond(connectivity, saddles, ascending, steepest_up, &mut loops);
+    }
+    let repeated = |&i: &u32| (0..loops[i as usize]).map(move |_| saddles.get(i).vertex);
+    ascending.iter().flat_map(repeated).collect()
 }
 
-/// On a surface, l components of the lower link are l − 1 handles: each joins components of the sublevel set, or begins a
-/// loop. By duality a loop comes to bound where components of the superlevel set join; a vertex above everything, next to
-/// the whole boundary, takes the place of what lies beyond the boundary.
-fn of_manifold(connectivity: &Connectivity, saddles: &Saddles, ascending: &[u32], steepest: &Steepest) -> Vec<u32> {
+/// Takes away the loops that come to bound on a surface with boundary, where a vertex above everything, next to the whole
+/// boundary, takes the place of what lies beyond it.
+fn bound_from_beyond(
+    connectivity: &Connectivity,
+    saddles: &Saddles,
+    ascending: &[u32],
+    steepest_up: &[u32],
+    loops: &mut [u32],
+) {
     let beyond = connectivity.vertex_count() as u32;
-    let mut up = steepest.up.clone();
+    let mut up = steepest_up.to_vec();
     up.push(beyond);
     for &v in connectivity.special_vertices() {
         up[v as usize] = beyond;
     }
-    let mut below = Forest::new(steepest.down.clone());
     let mut above = Forest::new(up);
-    let mut loops = vec![0_u32; saddles.len()];
-    for &i in ascending {
-        let saddle = saddles.get(i);
-        for &first in saddle.lower.get(1..).unwrap_or_default() {
-            loops[i as usize] += u32::from(!below.unite(saddle.lower[0], first));
-        }
-    }
     for &i in ascending.iter().rev() {
         let saddle = saddles.get(i);
         let on_boundary = connectivity.link_kinds()[saddle.vertex as usize] == LinkKind::Path;
-        let (&hub, others) = match saddle.upper.split_first() {
-            _ if on_boundary => (&beyond, saddle.upper),
-            Some(split) => split,
-            None => continue,
-        };
-        for &first in others {
+        let hub = if on_boundary { beyond } else { saddle.upper[0] };
+        for &first in saddle.upper {
             if above.unite(hub, first) {
                 loops[i as usize] = loops[i as usize].saturating_sub(1);
             }
         }
     }
-    let repeated = |&i: &u32| (0..loops[i as usize]).map(move |_| saddles.get(i).vertex);
-    ascending.iter().flat_map(repeated).collect()
 }
 
 /// Where sheets meet, duality fails, and the loops that come to bound are found from the coboundaries of the edges

@@ -15,6 +15,7 @@ impl Forest {
         Self { parents }
     }
 
+    #[inline]
     pub(super) fn find(&mut self, mut v: u32) -> u32 {
         loop {
             let parent = self.parents[v as usize];
@@ -87,16 +88,16 @@ impl<'a> Merging<'a> {
         Some(Merged { ended, survivor })
     }
 
-    /// Visits the saddles in the order of the sweep and tells what merges where.
+    /// Visits the saddles in the order of the sweep and tells for each merger the index of its saddle.
     pub(super) fn visit(&mut self, saddles: &Saddles, ascending: &[u32], mut tell: impl FnMut(u32, Merged)) {
         let downwards = self.sweep.is_downwards();
         for i in 0..ascending.len() {
-            let place = if downwards { ascending.len() - 1 - i } else { i };
-            let saddle = saddles.get(ascending[place]);
+            let index = ascending[if downwards { ascending.len() - 1 - i } else { i }];
+            let saddle = saddles.get(index);
             let sides = if downwards { saddle.upper } else { saddle.lower };
             for k in 1..sides.len() {
                 if let Some(merged) = self.join(sides[0], sides[k]) {
-                    tell(saddle.vertex, merged);
+                    tell(index, merged);
                 }
             }
         }

@@ -46,7 +46,8 @@ impl<'a> VertexOrder<'a> {
     #[must_use]
     pub fn is_below(self, a: u32, b: u32) -> bool {
         let (x, y) = (self.values[a as usize], self.values[b as usize]);
-        x < y || (x == y && a < b)
+        // Without branches: which of two neighbours is lower cannot be foretold where a field is rough.
+        (x < y) | ((x == y) & (a < b))
     }
 }
 

@@ -7,7 +7,7 @@ use super::merging::Merging;
 use super::order::VertexOrder;
 use super::saddles::Saddles;
 use super::sorting::{ascending_bits, sort_by_key};
-use super::steepest::{Steepest, Steepness};
+use super::steepest::Steepest;
 use crate::error::Error;
 use crate::mesh::{LinkKind, TriMesh};
 
@@ -117,28 +117,26 @@ impl PersistenceCurve {
 /// ```
 pub fn persistence(mesh: &TriMesh, values: &[f64]) -> Result<PersistenceDiagram, Error> {
     let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let saddles = Saddles::new(mesh, order, Steepness::Value);
+    let saddles = Saddles::new(mesh, order);
     let ascending = saddles.ascending(values);
-    let steepest = Steepest::new(mesh, order, Steepness::Value);
-    let mut diagram = PersistenceDiagram {
-        essential_saddles: essential_saddles(mesh, order, &saddles, &ascending, &steepest),
-        ..PersistenceDiagram::default()
-    };
+    let steepest = Steepest::by_value(mesh.connectivity(), order);
+    let mut diagram = PersistenceDiagram::default();
     let mut pairs = Vec::new();
-    for (sweep, paths) in [(Sweep::upwards(order), steepest.down), (Sweep::downwards(order), steepest.up)] {
-        let kind = if sweep.is_downwards() { CriticalKind::Maximum } else { CriticalKind::Minimum };
-        let mut merging = Merging::new(sweep, paths);
-        merging.visit(&saddles, &ascending, |saddle, merged| {
-            let (a, b) = (order.values()[merged.ended as usize], order.values()[saddle as usize]);
+    let mut mergers = vec![[0_u32; 2]; saddles.len()];
+    for sweep in [Sweep::upwards(order), Sweep::downwards(order)] {
+        let (kind, paths) = if sweep.is_downwards() {
+            (CriticalKind::Maximum, &steepest.up)
+        } else {
+            (CriticalKind::Minimum, &steepest.down)
+        };
+        let mut merging = Merging::new(sweep, paths.clone());
+        merging.visit(&saddles, &ascending, |index, merged| {
+            mergers[index as usize][usize::from(sweep.is_downwards())] += 1;
+            let saddle = saddles.get(index).vertex;
+            let (a, b) = (values[merged.ended as usize], values[saddle as usize]);
             let (birth, death) = if a < b { (a, b) } else { (b, a) };
-            pairs.push(PersistencePair {
-                extremum: merged.ended,
-                saddle,
-                kind,
-                birth,
-                death,
-                persistence: death - birth,
-            });
+            let persistence = death - birth;
+            pairs.push(PersistencePair { extremum: merged.ended, saddle, kind, birth, death, persistence });
         });
         let kinds = mesh.connectivity().link_kinds();
         let essential = (0..values.len() as u32)
@@ -149,6 +147,7 @@ pub fn persistence(mesh: &TriMesh, values: &[f64]) -> Result<PersistenceDiagram,
             _ => diagram.essential_maxima = essential,
         }
     }
+    diagram.essential_saddles = essential_saddles(mesh, order, &saddles, &ascending, &mergers, &steepest.up);
     let mut ranked: Vec<u32> = (0..pairs.len() as u32).collect();
     sort_by_key(&mut ranked, &|i| !ascending_bits(pairs[i as usize].persistence));
     diagram.pairs = ranked.iter().map(|&i| pairs[i as usize]).collect();

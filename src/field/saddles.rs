@@ -1,95 +1,161 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
-use super::critical::{ONE_CHANGE, sweep};
+use super::critical::{ONE_CHANGE, exact_states};
 use super::link_sides::LinkSides;
 use super::order::VertexOrder;
 use super::sorting::{ascending_bits, sort_by_key};
-use super::steepest::Steepness;
+use super::steepest::steepest_of;
 use crate::mesh::{LinkKind, TriMesh};
 
-/// One vertex with several components of its lower or upper link, each with the vertex that a steepest path goes to first.
+/// One vertex with several components of its lower or upper link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saddle<'a> {
     pub(super) vertex: u32,
-    /// First vertices of the steepest paths down, one for each component of the lower link. Where the link is a cycle,
-    /// `upper[i]` lies between `lower[i]` and the next one.
+    /// Vertices of the lower link, of every component at least one.
     pub(super) lower: &'a [u32],
-    /// First vertices of the steepest paths up.
+    /// Vertices of the upper link, of every component at least one.
     pub(super) upper: &'a [u32],
+    /// Components of the lower link.
+    pub(super) lower_components: u32,
 }
 
 /// The saddles of a field, ascending by vertex. An extremum whose link is in several pieces is among them: components meet
 /// there all the same.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Saddles {
     vertices: Vec<u32>,
+    /// Where the link vertices of each begin: lower and upper ones in turn.
     offsets: Vec<u32>,
-    /// How many first vertices of each saddle are lower ones.
-    lower: Vec<u32>,
     first: Vec<u32>,
+    lower_components: Vec<u32>,
 }
 
 impl Saddles {
-    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, steepness: Steepness<'_>) -> Self {
-        Self::with_tips(mesh, order, steepness, &[], false)
+    /// With some vertices of each component, found in the least time.
+    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
+        Self::with_tips(mesh, order, &[], false)
     }
 
     /// As if the vertices in `tips` were raised a little (`upper`), or lowered: around such a vertex, what is farther out in that
     /// direction is joined to the vertex itself. Nothing changes at one that is an extremum.
     #[inline(never)]
-    pub(super) fn with_tips(
-        mesh: &TriMesh,
-        order: VertexOrder<'_>,
-        steepness: Steepness<'_>,
-        tips: &[bool],
-        upper: bool,
-    ) -> Self {
+    pub(super) fn with_tips(mesh: &TriMesh, order: VertexOrder<'_>, tips: &[bool], upper: bool) -> Self {
         let connectivity = mesh.connectivity();
-        let states = sweep(connectivity, |i, j| if order.is_below(i, j) { 1 } else { -1 });
+        let states = exact_states(connectivity, order);
+        let kinds = connectivity.link_kinds();
         let mut sides = LinkSides::new(mesh.vertex_count());
-        let mut this = Self { offsets: vec![0], ..Self::default() };
-        for (v, (&state, &kind)) in states.iter().zip(connectivity.link_kinds()).enumerate() {
-            let tip = tips.get(v) == Some(&true);
-            if (kind == LinkKind::Cycle && state < 4 * ONE_CHANGE && !tip) || kind == LinkKind::Isolated {
+        let mut this = Self::empty();
+        let mut above = Vec::new();
+        for v in 0..states.len() as u32 {
+            let changes = states[v as usize] / ONE_CHANGE;
+            let kind = kinds[v as usize];
+            let is_tip = !tips.is_empty() && tips[v as usize];
+            if kind == LinkKind::Cycle && !is_tip {
+                if changes >= 4 {
+                    this.push_changes(mesh, order, v, &mut above);
+                    this.close(v, changes / 2);
+                }
                 continue;
             }
-            let v = v as u32;
             sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            let start = this.first.len();
-            let mut counts = [0, 0];
-            for (count, lower) in counts.iter_mut().zip([true, false]) {
-                let before = this.first.len();
-                if tip && lower != upper {
+            for lower in [true, false] {
+                if is_tip && lower != upper {
                     this.first.push(v);
                 }
-                for &component in sides.components().iter().filter(|component| component.lower == lower) {
-                    let members = sides.members(component).iter().copied();
-                    let steepest =
-                        members.reduce(|best, j| if steepness.is_steeper(order, v, j, best) { j } else { best });
-                    this.first.extend(steepest);
+                for &component in sides.components() {
+                    if component.lower == lower {
+                        this.first.push(sides.members(component)[0]);
+                    }
                 }
-                *count = (this.first.len() - before) as u32;
+                this.offsets.push(this.first.len() as u32);
             }
-            if counts[0].max(counts[1]) < 2 {
-                this.first.truncate(start);
-                continue;
-            }
-            this.vertices.push(v);
-            this.lower.push(counts[0]);
-            this.offsets.push(this.first.len() as u32);
+            this.close(v, sides.lower_components());
         }
         this
+    }
+
+    /// With the steepest vertex of each component, once each. Where the link is a cycle, `upper[i]` lies between `lower[i]` and
+    /// the next one.
+    #[inline(never)]
+    pub(super) fn steepest(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
+        let connectivity = mesh.connectivity();
+        let states = exact_states(connectivity, order);
+        let kinds = connectivity.link_kinds();
+        let mut sides = LinkSides::new(mesh.vertex_count());
+        let mut this = Self::empty();
+        for v in 0..states.len() as u32 {
+            if kinds[v as usize] == LinkKind::Cycle && states[v as usize] < 4 * ONE_CHANGE {
+                continue;
+            }
+            sides.inspect(connectivity, v, |j| order.is_below(j, v));
+            for lower in [true, false] {
+                for &component in sides.components() {
+                    if component.lower == lower {
+                        this.first.push(steepest_of(mesh, order, v, sides.members(component)));
+                    }
+                }
+                this.offsets.push(this.first.len() as u32);
+            }
+            this.close(v, sides.lower_components());
+        }
+        this
+    }
+
+    fn empty() -> Self {
+        Self { vertices: Vec::new(), offsets: vec![0], first: Vec::new(), lower_components: Vec::new() }
+    }
+
+    /// Around a cycle, both ends of every edge between a lower and an upper vertex: each component has two, or twice the same.
+    fn push_changes(&mut self, mesh: &TriMesh, order: VertexOrder<'_>, v: u32, above: &mut Vec<u32>) {
+        above.clear();
+        for &t in mesh.connectivity().star(v) {
+            let [a, b, c] = mesh.connectivity().triangles()[t as usize];
+            let (j, k) = if a == v {
+                (b, c)
+            } else if b == v {
+                (c, a)
+            } else {
+                (a, b)
+            };
+            let j_is_lower = order.is_below(j, v);
+            if j_is_lower != order.is_below(k, v) {
+                let (low, high) = if j_is_lower { (j, k) } else { (k, j) };
+                self.first.push(low);
+                above.push(high);
+            }
+        }
+        self.offsets.push(self.first.len() as u32);
+        self.first.extend_from_slice(above);
+        self.offsets.push(self.first.len() as u32);
+    }
+
+    /// Takes up the vertex whose link vertices were put in last, unless there is but one of each side.
+    fn close(&mut self, v: u32, lower_components: u32) {
+        let [.., start, middle, end] = self.offsets[..] else { return };
+        if middle - start > 1 || end - middle > 1 {
+            self.vertices.push(v);
+            self.lower_components.push(lower_components);
+        } else {
+            self.first.truncate(start as usize);
+            self.offsets.truncate(self.offsets.len() - 2);
+        }
     }
 
     pub(super) fn len(&self) -> usize {
         self.vertices.len()
     }
 
+    #[inline]
     pub(super) fn get(&self, index: u32) -> Saddle<'_> {
         let index = index as usize;
-        let first = &self.first[self.offsets[index] as usize..self.offsets[index + 1] as usize];
-        let (lower, upper) = first.split_at(self.lower[index] as usize);
-        Saddle { vertex: self.vertices[index], lower, upper }
+        let offsets = &self.offsets[2 * index..2 * index + 3];
+        let (start, middle, end) = (offsets[0] as usize, offsets[1] as usize, offsets[2] as usize);
+        Saddle {
+            vertex: self.vertices[index],
+            lower: &self.first[start..middle],
+            upper: &self.first[middle..end],
+            lower_components: self.lower_components[index],
+        }
     }
 
     /// Indices of the saddles by ascending (value, id).

@@ -2,13 +2,12 @@
 
 use super::critical::{CriticalKind, DeltaOptions, critical_points};
 use super::direction::Sweep;
-use super::flats::{Role, ordered};
+use super::flats::{Role, Surroundings, ordered};
 use super::flooding::{flood, flood_along};
 use super::merging::Merging;
 use super::order::{VertexOrder, value_range};
 use super::saddles::Saddles;
-use super::sorting::sort_by_value;
-use super::steepest::{Steepest, Steepness};
+use super::steepest::Steepest;
 use super::tilt::tilted;
 use crate::error::{Error, FieldError, OptionError};
 use crate::mesh::{LinkKind, TriMesh};
@@ -93,9 +92,9 @@ pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f6
     let between = VertexOrder::new(&filled, filled.len())?;
     let levels = flood(mesh, between, true, &having(&roles, Role::Maximum))?;
     drop(filled);
-    let mut sequence = ordered(mesh.connectivity(), &levels, &roles);
-    sort_by_value(&mut sequence, &levels);
-    let simple = tilted(mesh.connectivity(), &levels, &sequence, values, bound);
+    let around = Surroundings::new(mesh.connectivity(), &levels, &roles);
+    let sequence = ordered(mesh.connectivity(), &around, &roles);
+    let simple = tilted(mesh.connectivity(), &around, &levels, sequence, values, bound);
     check(mesh, &simple, &roles)?;
     Ok(simple)
 }
@@ -107,16 +106,16 @@ fn having(roles: &[Role], wanted: Role) -> Vec<bool> {
 /// Roles by persistence, and the field with its basins filled, for which the same saddles serve.
 fn persistent(mesh: &TriMesh, order: VertexOrder<'_>, bound: f64) -> Result<(Vec<Role>, Vec<f64>), FieldError> {
     let values = order.values();
-    let saddles = Saddles::new(mesh, order, Steepness::Value);
+    let saddles = Saddles::new(mesh, order);
     let ascending = saddles.ascending(values);
-    let steepest = Steepest::new(mesh, order, Steepness::Value);
+    let steepest = Steepest::by_value(mesh.connectivity(), order);
     let mut roles = vec![Role::Ordinary; values.len()];
     for (sweep, paths, role) in
         [(Sweep::upwards(order), &steepest.down, Role::Minimum), (Sweep::downwards(order), &steepest.up, Role::Maximum)]
     {
         let mut merging = Merging::new(sweep, paths.clone());
         merging.visit(&saddles, &ascending, |saddle, merged| {
-            let persistence = (values[merged.ended as usize] - values[saddle as usize]).abs();
+            let persistence = (values[merged.ended as usize] - values[saddles.get(saddle).vertex as usize]).abs();
             if persistence > bound {
                 roles[merged.ended as usize] = role;
             }

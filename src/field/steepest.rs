@@ -1,43 +1,7 @@
 //! Steepest paths along edges: where each vertex leads to, upwards and downwards.
 
 use super::order::VertexOrder;
-use crate::mesh::{TriMesh, difference, norm};
-
-/// What makes one neighbour steeper than another.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Steepness<'a> {
-    /// The difference of the values: any path will do, as long as it keeps to one side.
-    Value,
-    /// The difference over the length of the edge: the direction of the gradient, as near as edges come to it.
-    Slope(&'a TriMesh),
-}
-
-impl Steepness<'_> {
-    fn between(self, order: VertexOrder<'_>, a: u32, b: u32) -> f64 {
-        let drop = (order.values()[a as usize] - order.values()[b as usize]).abs();
-        match self {
-            Self::Value => drop,
-            Self::Slope(mesh) => {
-                let length = norm(difference(mesh.position(a), mesh.position(b)));
-                // Two vertices at one place: nothing is steeper, unless they have one value too.
-                if length > 0.0 || drop == 0.0 { drop / length.max(f64::MIN_POSITIVE) } else { f64::INFINITY }
-            }
-        }
-    }
-
-    /// Whether from `v` it is steeper to `a` than to `b`, both on the same side of it. Among equals the one that lies farther
-    /// along is taken, so that the answer is the same whatever order they are met in.
-    pub(super) fn is_steeper(self, order: VertexOrder<'_>, v: u32, a: u32, b: u32) -> bool {
-        let farther = order.is_below(a, b) == order.is_below(a, v);
-        match self {
-            Self::Value => farther,
-            Self::Slope(_) => {
-                let (to_a, to_b) = (self.between(order, v, a), self.between(order, v, b));
-                to_a > to_b || (to_a == to_b && farther)
-            }
-        }
-    }
-}
+use crate::mesh::{Connectivity, TriMesh, difference, norm};
 
 /// For every vertex the neighbours that steepest paths go on to; itself where a path ends.
 #[derive(Debug, Clone)]
@@ -47,23 +11,13 @@ pub(super) struct Steepest {
 }
 
 impl Steepest {
-    /// One pass over the edges.
+    /// To the lowest and to the highest neighbour: where paths end is all that matters to components.
     #[inline(never)]
-    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, steepness: Steepness<'_>) -> Self {
-        let n = mesh.vertex_count();
-        let itself: Vec<u32> = (0..n as u32).collect();
-        let mut this = Self { down: itself.clone(), up: itself };
-        match steepness {
-            Steepness::Value => this.follow_values(mesh, order),
-            Steepness::Slope(_) => this.follow_slopes(mesh, order, steepness),
-        }
-        this
-    }
-
-    fn follow_values(&mut self, mesh: &TriMesh, order: VertexOrder<'_>) {
-        for &[a, b] in mesh.connectivity().edges() {
+    pub(super) fn by_value(connectivity: &Connectivity, order: VertexOrder<'_>) -> Self {
+        let mut this = Self::nowhere(connectivity.vertex_count());
+        for &[a, b] in connectivity.edges() {
             let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
-            let (down, up) = (&mut self.down[high as usize], &mut self.up[low as usize]);
+            let (down, up) = (&mut this.down[high as usize], &mut this.up[low as usize]);
             if order.is_below(low, *down) {
                 *down = low;
             }
@@ -71,23 +25,66 @@ impl Steepest {
                 *up = high;
             }
         }
+        this
     }
 
-    fn follow_slopes(&mut self, mesh: &TriMesh, order: VertexOrder<'_>, steepness: Steepness<'_>) {
+    /// Along the steepest edge, as near to the gradient as edges come. Of equally steep edges the one that leads farther in
+    /// the order is taken.
+    #[inline(never)]
+    pub(super) fn by_slope(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
+        let mut this = Self::nowhere(mesh.vertex_count());
         // Below every slope, so that the first neighbour is taken.
-        let mut down_slopes = vec![-1.0; self.down.len()];
+        let mut down_slopes = vec![-1.0; mesh.vertex_count()];
         let mut up_slopes = down_slopes.clone();
         for &[a, b] in mesh.connectivity().edges() {
             let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
-            let slope = steepness.between(order, low, high);
-            let (down, best) = (&mut self.down[high as usize], &mut down_slopes[high as usize]);
+            let slope = slope(mesh, order, low, high);
+            let (down, best) = (&mut this.down[high as usize], &mut down_slopes[high as usize]);
             if slope > *best || (slope == *best && order.is_below(low, *down)) {
                 (*down, *best) = (low, slope);
             }
-            let (up, best) = (&mut self.up[low as usize], &mut up_slopes[low as usize]);
+            let (up, best) = (&mut this.up[low as usize], &mut up_slopes[low as usize]);
             if slope > *best || (slope == *best && order.is_below(*up, high)) {
                 (*up, *best) = (high, slope);
             }
         }
+        this
     }
+
+    fn nowhere(vertices: usize) -> Self {
+        let itself: Vec<u32> = (0..vertices as u32).collect();
+        Self { down: itself.clone(), up: itself }
+    }
+}
+
+/// |f_a − f_b| over the distance of a and b.
+#[inline(always)]
+fn slope(mesh: &TriMesh, order: VertexOrder<'_>, a: u32, b: u32) -> f64 {
+    let drop = (order.values()[a as usize] - order.values()[b as usize]).abs();
+    let length = norm(difference(mesh.position(a), mesh.position(b)));
+    if length > 0.0 {
+        drop / length
+    } else if drop > 0.0 {
+        // Two vertices in one place.
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+/// The steepest of several neighbours of `v` on the same side of it, as in [`Steepest::by_slope`].
+pub(super) fn steepest_of(mesh: &TriMesh, order: VertexOrder<'_>, v: u32, neighbours: &[u32]) -> u32 {
+    let mut best = neighbours[0];
+    if neighbours.len() == 1 {
+        return best;
+    }
+    let mut best_slope = slope(mesh, order, v, best);
+    for &j in &neighbours[1..] {
+        let slope = slope(mesh, order, v, j);
+        let is_farther = order.is_below(j, best) == order.is_below(j, v);
+        if slope > best_slope || (slope == best_slope && is_farther) {
+            (best, best_slope) = (j, slope);
+        }
+    }
+    best
 }

@@ -1,26 +1,39 @@
 //! Doubles for vertices that are in order but have equal levels: the smallest steps that tell neighbours apart.
 
+use super::flats::Surroundings;
+use super::sorting::sort_by_value;
 use crate::mesh::Connectivity;
 
-/// Values near `levels` that ascend along every edge from the vertex that comes first in `order` to the other one, equal
-/// values counting as ascending where ids do. `order` must not contradict the levels.
+/// Values near `levels` that ascend along every edge from the lower level to the higher, and on one level from the vertex that
+/// comes first in `order` to the other one; equal values count as ascending where ids do.
 ///
 /// A value is its level, or the least double above its neighbours before it; where that would be more than `bound` above
 /// the original value, the whole level starts so many steps lower, if that helps.
 pub(super) fn tilted(
     connectivity: &Connectivity,
+    around: &Surroundings,
     levels: &[f64],
-    order: &[u32],
+    mut order: Vec<u32>,
     original: &[f64],
     bound: f64,
 ) -> Vec<f64> {
-    let plain = climb(connectivity, levels, order, levels);
+    let alone = climb_alone(around, levels, &order);
+    if stay_apart(connectivity, levels, &alone) && alone.iter().zip(original).all(|(value, from)| value - from <= bound)
+    {
+        return alone;
+    }
+    drop(alone);
+    // Levels lie so close that the steps of one reach the next.
+    sort_by_value(&mut order, levels);
+    let plain = climb(connectivity, levels, &order, levels);
     let mut bases = levels.to_vec();
     let mut lowered = false;
     for run in order.chunk_by(|&a, &b| levels[a as usize] == levels[b as usize]) {
-        let excess =
-            run.iter().map(|&v| steps_above(plain[v as usize], levels[v as usize], original[v as usize], bound));
-        let excess = excess.max().unwrap_or(0);
+        let mut excess = 0;
+        for &v in run {
+            let v = v as usize;
+            excess = steps_above(plain[v], levels[v], original[v], bound).max(excess);
+        }
         if excess > 0 {
             lowered = true;
             for &v in run {
@@ -31,8 +44,38 @@ pub(super) fn tilted(
     if !lowered {
         return plain;
     }
-    let other = climb(connectivity, levels, order, &bases);
+    let other = climb(connectivity, levels, &order, &bases);
     if change(original, &other) < change(original, &plain) { other } else { plain }
+}
+
+/// As if there were no other levels.
+fn climb_alone(around: &Surroundings, levels: &[f64], order: &[u32]) -> Vec<f64> {
+    let mut values = levels.to_vec();
+    let mut placed = vec![false; levels.len()];
+    for &v in order {
+        let mut value = levels[v as usize];
+        for &w in around.level(v) {
+            if placed[w as usize] {
+                let below = values[w as usize];
+                value = value.max(if w < v { below } else { below.next_up() });
+            }
+        }
+        values[v as usize] = value;
+        placed[v as usize] = true;
+    }
+    values
+}
+
+/// Whether the values are in the order of the levels along every edge.
+fn stay_apart(connectivity: &Connectivity, levels: &[f64], values: &[f64]) -> bool {
+    let is_below = |a: u32, b: u32| {
+        let (x, y) = (values[a as usize], values[b as usize]);
+        x < y || (x == y && a < b)
+    };
+    connectivity.edges().iter().all(|&[a, b]| {
+        let (x, y) = (levels[a as usize], levels[b as usize]);
+        x == y || (x < y) == is_below(a, b)
+    })
 }
 
 fn change(before: &[f64], after: &[f64]) -> f64 {

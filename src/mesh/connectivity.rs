@@ -183,6 +183,7 @@ impl Connectivity {
     ///
     /// # Panics
     /// Where `vertex` does not exist.
+    #[inline]
     #[must_use]
     pub fn star(&self, vertex: u32) -> &[u32] {
         star_of(&self.star_offsets, &self.stars, vertex)
@@ -233,6 +234,7 @@ pub(super) fn corner_of(corners: [u32; 3], vertex: u32) -> usize {
     }
 }
 
+#[inline]
 fn star_of<'a>(offsets: &[u32], stars: &'a [u32], vertex: u32) -> &'a [u32] {
     &stars[offsets[vertex as usize] as usize..offsets[vertex as usize + 1] as usize]
 }

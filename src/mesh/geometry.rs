@@ -9,15 +9,18 @@ const SMALLEST_AREA: f64 = 1e-150;
 
 pub(crate) type Vector = [f64; 3];
 
+#[inline]
 pub(crate) fn position(positions: &[f64], vertex: u32) -> Vector {
     let i = 3 * vertex as usize;
     [positions[i], positions[i + 1], positions[i + 2]]
 }
 
+#[inline]
 pub(crate) fn difference(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+#[inline]
 pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -26,6 +29,7 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+#[inline]
 pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }

@@ -115,6 +115,7 @@ impl TriMesh {
     ///
     /// # Panics
     /// Where `vertex` is not below [`TriMesh::vertex_count`].
+    #[inline]
     #[must_use]
     pub fn position(&self, vertex: u32) -> [f64; 3] {
         geometry::position(&self.shared.positions, vertex)

@@ -78,7 +78,9 @@ impl RawTriMesh {
         if points.try_reserve_exact(length).is_err() {
             return Err(FieldError::OutOfMemory { bytes: 8 * length as u64 }.into());
         }
-        points.extend(complex.vertices.iter().flat_map(|&v| self.mesh().position(v)));
+        for &v in &complex.vertices {
+            points.extend_from_slice(&self.mesh().position(v));
+        }
         let result = Object::new();
         set(&result, "points", &Float64Array::from(points.as_slice()));
         set(&result, "offsets", &Uint32Array::from(complex.offsets.as_slice()));

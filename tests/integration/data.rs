@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, ThresholdScale, critical_points,
+    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, ThresholdScale, critical_points, delta_hierarchy,
     largest_edge_difference, persistence, simplify, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
@@ -110,11 +110,23 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
     let range = value_range(mesh.connectivity(), values).expect("a field");
     check.equal(&format!("{context} minimum"), &range.min, &number(&expected["range"][0]));
     check.equal(&format!("{context} maximum"), &range.max, &number(&expected["range"][1]));
+    let hierarchies =
+        [LinkReading::Consecutive, LinkReading::Skip].map(|link| delta_hierarchy(mesh, values, link).expect("a field"));
+    if let Err(error) = crate::hierarchy::check(mesh, values, 8) {
+        check.failures.push(format!("{context}: {error}"));
+    }
     for (delta, readings) in expected["delta"].as_object().expect("a table of δ") {
-        for (name, link) in [("consecutive", LinkReading::Consecutive), ("skip", LinkReading::Skip)] {
-            let options = DeltaOptions { delta: delta.parse().expect("a number"), link, ..DeltaOptions::default() };
+        let number: f64 = delta.parse().expect("a number");
+        for (k, name, link) in [(0, "consecutive", LinkReading::Consecutive), (1, "skip", LinkReading::Skip)] {
+            let options = DeltaOptions { delta: number, link, ..DeltaOptions::default() };
             let found = critical_points(mesh, values, &options).expect("a field").counts;
             check.equal(&format!("{context} δ = {delta} {name}"), &as_array(&found), &counts(&readings[name]));
+            let found = hierarchies[k].counts_at(number);
+            check.equal(
+                &format!("{context} δ = {delta} {name}, hierarchy"),
+                &as_array(&found),
+                &counts(&readings[name]),
+            );
         }
     }
     let diagram = persistence(mesh, values).expect("a field");

@@ -2,6 +2,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod bands;
 mod cholesky;
 mod critical;
 mod data;
@@ -9,6 +10,7 @@ mod definite;
 mod exact;
 mod extremes;
 mod fem;
+mod hierarchy;
 mod io_malformed;
 mod io_read;
 mod io_write;
@@ -16,6 +18,7 @@ mod iterative;
 mod layering;
 mod level_sets;
 mod mesh;
+mod morse;
 mod operators;
 mod ordering;
 mod persistence;
@@ -23,6 +26,7 @@ mod readme;
 mod refusals;
 mod reuse;
 mod routes;
+mod saddle_levels;
 mod simplify;
 mod smooth;
 mod smooth_iterative;

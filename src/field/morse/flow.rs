@@ -37,12 +37,14 @@ impl<'a> Flow<'a> {
     }
 
     /// The entry after `at`; `None` at an extremum.
+    #[inline]
     pub(super) fn next(&self, at: u32) -> Option<u32> {
         let next = self.next[at as usize];
         (next != at).then_some(next)
     }
 
     /// The vertex of an entry.
+    #[inline]
     pub(super) fn vertex(&self, at: u32) -> u32 {
         match (at as usize).checked_sub(self.vertices) {
             Some(unit) => self.saddles[unit],
@@ -52,6 +54,11 @@ impl<'a> Flow<'a> {
 
     pub(super) fn len(&self) -> usize {
         self.next.len()
+    }
+
+    /// For every entry the extremum that it flows to.
+    pub(super) fn ends(&self) -> Vec<u32> {
+        ends(&self.next)
     }
 
     /// For every entry how many there are from it to its extremum, both included.

@@ -9,7 +9,7 @@ use crate::field::direction::Sweep;
 use crate::field::merging::{Forest, Merging};
 use crate::field::order::{VertexOrder, value_range};
 use crate::field::sorting::{ascending_bits, sort_by_key};
-use crate::field::steepest::{Steepest, Steepness};
+use crate::field::steepest::Steepest;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
@@ -87,7 +87,7 @@ pub(super) struct Cancellation {
 pub(super) struct Cancellations {
     pub(super) steepest: Steepest,
     pub(super) units: Units,
-    /// For every vertex the minimum and the maximum it flows to.
+    /// For every vertex the minimum and the maximum it flows to; nothing where nothing is cancelled.
     pub(super) ends: [Vec<u32>; 2],
     /// By ascending persistence.
     list: Vec<Cancellation>,
@@ -98,9 +98,9 @@ pub(super) struct Cancellations {
 impl Cancellations {
     /// Pairs of persistence above `limit` are left out, and all of them where it is 0.
     pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, limit: f64) -> Self {
-        let steepest = Steepest::new(mesh, order, Steepness::Slope(mesh));
+        let steepest = Steepest::by_slope(mesh, order);
         let units = Units::new(mesh, order);
-        let ends = [ends(&steepest.down), ends(&steepest.up)];
+        let ends = if limit > 0.0 { [ends(&steepest.down), ends(&steepest.up)] } else { [Vec::new(), Vec::new()] };
         let (mut found, mut pairs) = (Vec::new(), vec![0_u8; units.len()]);
         for upwards in [false, true].into_iter().filter(|_| limit > 0.0) {
             let sweep = if upwards { Sweep::downwards(order) } else { Sweep::upwards(order) };
@@ -271,7 +271,7 @@ pub fn basins(mesh: &TriMesh, values: &[f64], persistence: f64) -> Result<Basins
         let extrema = all.extrema(threshold);
         [0, 1].map(|side| all.ends[side].iter().map(|&end| extrema[side][end as usize]).collect())
     } else {
-        let steepest = Steepest::new(mesh, order, Steepness::Slope(mesh));
+        let steepest = Steepest::by_slope(mesh, order);
         [ends(&steepest.down), ends(&steepest.up)]
     };
     let connected = |labels: Vec<u32>| {

@@ -71,7 +71,6 @@ pub fn morse_complex(
     let cancelled = Cancellations::new(mesh, order, threshold);
     let alive = cancelled.alive(threshold);
     let flows = cancelled.flows(threshold);
-    let extrema = cancelled.extrema(threshold);
     let mut complex = MorseComplex::default();
     let units = &cancelled.units;
     let mut starts = [Vec::new(), Vec::new()];
@@ -94,11 +93,14 @@ pub fn morse_complex(
     complex.reserve(&starts, &flows, style)?;
     complex.offsets.push(0);
     for (side, kind) in [CriticalKind::Minimum, CriticalKind::Maximum].into_iter().enumerate() {
-        let mut passed = vec![false; if style == PathStyle::Merged { flows[side].len() } else { 0 }];
+        let flow = &flows[side];
+        let merged = style == PathStyle::Merged;
+        let mut passed = vec![false; if merged { flow.len() } else { 0 }];
+        let ends = if merged { flow.ends() } else { Vec::new() };
         for &(saddle, first) in &starts[side] {
-            complex.trace(&flows[side], saddle, first, &mut passed);
+            let last = complex.trace(flow, saddle, first, &mut passed);
             complex.saddles.push(saddle);
-            complex.extrema.push(extrema[side][cancelled.ends[side][first as usize] as usize]);
+            complex.extrema.push(if merged { ends[first as usize] } else { last });
             complex.kinds.push(kind);
         }
     }
@@ -134,25 +136,27 @@ impl MorseComplex {
         if fits { Ok(()) } else { Err(FieldError::OutOfMemory { bytes: 4 * points + 13 * lines as u64 }) }
     }
 
-    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, first: u32, passed: &mut [bool]) {
+    /// Adds a line and returns its last vertex.
+    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, first: u32, passed: &mut [bool]) -> u32 {
         let start = self.vertices.len();
         self.vertices.push(saddle);
         let mut at = first;
-        loop {
+        let last = loop {
             let vertex = flow.vertex(at);
             // Where cancelled paths lead back over the saddle, the line begins there.
             if vertex == saddle {
                 self.vertices.truncate(start);
             }
             self.vertices.push(vertex);
-            if passed.get_mut(at as usize).is_some_and(|passed| core::mem::replace(passed, true)) {
-                break;
+            if !passed.is_empty() && core::mem::replace(&mut passed[at as usize], true) {
+                break vertex;
             }
             match flow.next(at) {
                 Some(next) => at = next,
-                None => break,
+                None => break vertex,
             }
-        }
+        };
         self.offsets.push(self.vertices.len() as u32);
+        last
     }
 }

@@ -3,7 +3,6 @@
 use super::NONE;
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
-use crate::field::steepest::Steepness;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// Simple saddles, each with at most two steepest paths down and two up, given by their first vertices; [`NONE`] where there
@@ -23,7 +22,7 @@ pub(super) struct Units {
 
 impl Units {
     pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
-        let saddles = Saddles::new(mesh, order, Steepness::Slope(mesh));
+        let saddles = Saddles::steepest(mesh, order);
         let mut this = Self::default();
         let mut starts = Vec::with_capacity(saddles.len() + 1);
         for i in 0..saddles.len() as u32 {
