@@ -34,7 +34,8 @@ export class Legend {
 
   /** What colours the surface where it is not the values; the bar is then about the levels alone. */
   setBasins(what: string | null): void {
-    this.what.textContent = what === null ? 'Colours and levels of' : `${what}; levels of`;
+    this.what.textContent = what === null ? 'Colours and levels of' : `${what}; bar: levels`;
+    this.name.hidden = what !== null;
     this.plain = what !== null;
     this.draw();
   }
