@@ -208,6 +208,7 @@ impl Thresholds<'_> {
 }
 
 /// The least t for which t · `largest`, rounded as [`critical_points`](super::critical_points) does, is not below `threshold`.
+#[inline(never)]
 fn relative(threshold: f64, largest: f64) -> f64 {
     if threshold <= 0.0 {
         return 0.0;
@@ -239,6 +240,8 @@ fn key(relative: f64, kind: CriticalKind) -> u64 {
 }
 
 /// Sorts keys: into buckets of equal width over [0, 1] first, which for most fields hold few each.
+// By itself, as `curve` is: engines optimise a function when it is called again, not within one call.
+#[inline(never)]
 fn sorted(keys: &[u64]) -> Vec<u64> {
     let buckets = (keys.len() / 2).max(1);
     let bucket = |key: u64| ((f64::from_bits(key >> 2) * buckets as f64) as usize).min(buckets - 1);
@@ -277,6 +280,7 @@ fn sorted(keys: &[u64]) -> Vec<u64> {
     sorted
 }
 
+#[inline(never)]
 fn curve(keys: &[u64], counts: &CriticalCounts) -> DeltaCurve {
     let mut left = [counts.minima, counts.saddles, counts.maxima];
     let rows = keys.len() + 1;

@@ -1,6 +1,6 @@
 //! Lower and upper link of a vertex whose link may be any graph.
 
-use super::order::sort;
+use super::sorting::sort;
 use crate::mesh::Connectivity;
 
 /// What the link of a vertex looks like once every link vertex has a sign.
@@ -127,12 +127,11 @@ impl LinkScratch {
 
     /// Puts the edges in the order of their levels, the higher difference of their two ends.
     fn sort_edges(&mut self) {
-        let levels = self.edges.iter().map(|edge| {
-            let [x, y] = edge.map(|v| self.differences[v as usize]);
-            if x > y { x } else { y }
-        });
         self.levels.clear();
-        self.levels.extend(levels);
+        for &[a, b] in &self.edges {
+            let (x, y) = (self.differences[a as usize], self.differences[b as usize]);
+            self.levels.push(if x > y { x } else { y });
+        }
         self.order.clear();
         if self.levels.len() > FEW {
             self.order.extend(sort(&self.levels).1.iter().map(|&edge| edge as u32));

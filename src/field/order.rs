@@ -85,24 +85,3 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
         (if v < min { v } else { min }, if v > max { v } else { max })
     })
 }
-
-/// Numbers in ascending order, and the place in the input of each.
-pub(super) fn sort(numbers: &[f64]) -> (Vec<f64>, Vec<usize>) {
-    // The bits of a double, turned so that they ascend as integers.
-    let key = |number: f64| {
-        let bits = (number + 0.0).to_bits();
-        if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
-    };
-    let mut keys: Vec<u64> = numbers.iter().map(|&number| key(number)).collect();
-    keys.sort_unstable();
-    let (mut sorted, mut order) = (vec![0.0; numbers.len()], vec![0; numbers.len()]);
-    let mut taken = vec![0; numbers.len()];
-    for (place, &number) in numbers.iter().enumerate() {
-        let first = keys.partition_point(|&other| other < key(number));
-        let rank = first + taken[first];
-        taken[first] += 1;
-        sorted[rank] = number;
-        order[rank] = place;
-    }
-    (sorted, order)
-}

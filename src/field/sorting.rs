@@ -49,3 +49,19 @@ pub(super) fn sort_by_key(ids: &mut Vec<u32>, key: &dyn Fn(u32) -> u64) {
 pub(super) fn sort_by_value(ids: &mut Vec<u32>, values: &[f64]) {
     sort_by_key(ids, &|id| ascending_bits(values[id as usize]));
 }
+
+/// Numbers in ascending order, and the place in the input of each.
+pub(super) fn sort(numbers: &[f64]) -> (Vec<f64>, Vec<usize>) {
+    let mut keys: Vec<u64> = numbers.iter().map(|&number| ascending_bits(number)).collect();
+    keys.sort_unstable();
+    let (mut sorted, mut order) = (vec![0.0; numbers.len()], vec![0; numbers.len()]);
+    let mut taken = vec![0; numbers.len()];
+    for (place, &number) in numbers.iter().enumerate() {
+        let first = keys.partition_point(|&other| other < ascending_bits(number));
+        let rank = first + taken[first];
+        taken[first] += 1;
+        sorted[rank] = number;
+        order[rank] = place;
+    }
+    (sorted, order)
+}

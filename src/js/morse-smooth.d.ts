@@ -199,10 +199,11 @@ export class TriMesh {
   criticalPoints(values: Numbers, options?: DeltaOptions): CriticalPoints;
 
   /**
-   * The lines on which the field has the given values, or `count` values that cut its range into
-   * equal parts (none where the field is constant). At most 10,000.
+   * The lines on which the field has the given values, or `count` values that cut its range into equal parts (none where the field
+   * is constant), or values just below and just above `saddles`, where the lines change their shape. At most 10,000.
    *
-   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `OutOfMemory` (`bytes`) for more points than fit
+   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `IndexOutOfBounds` (`index`) for a vertex in `saddles`;
+   *   `OutOfMemory` (`bytes`) for more points than fit
    */
   levelSets(values: Numbers, levels: Numbers | { count: number } | SaddleLevels): LevelSets;
 
@@ -214,7 +215,12 @@ export class TriMesh {
    */
   bands(values: Numbers, levels: Numbers | { count: number }): Bands;
 
-  /** For every critical vertex the δ at which it stops being one, and the number of critical points at every δ. */
+  /**
+   * For every critical vertex the δ at which it stops being one, and the number of critical points at every δ. At each δ that is what
+   * {@link TriMesh.criticalPoints} finds by the strict rule, exactly.
+   *
+   * @throws `LengthMismatch` (`expected`, `actual`), `NonFiniteValue` (`vertex`)
+   */
   deltaHierarchy(values: Numbers, options?: { link?: Link }): DeltaHierarchy;
 
   /**

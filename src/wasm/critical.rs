@@ -17,13 +17,15 @@ impl RawTriMesh {
         let options = read(options, &[&["delta", "deltaIs", "link", "rule"]])?.delta()?;
         let found = field::critical_points(self.mesh(), &floats(values)?, &options)?;
         let points = &found.points;
-        let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
-        let kinds: Vec<i8> = points.iter().map(|p| sign(p.kind)).collect();
-        let multiplicities: Vec<u32> = points.iter().map(|p| p.multiplicity).collect();
-        let on_boundary: Vec<u8> = points.iter().map(|p| u8::from(p.on_boundary)).collect();
-        let result = Object::new();
-        set(&result, "vertices", &Uint32Array::from(vertices.as_slice()));
-        set(&result, "kinds", &Int8Array::from(kinds.as_slice()));
+        let mut columns = Columns::with_room(points.len());
+        let mut multiplicities: Vec<u32> = Vec::with_capacity(points.len());
+        let mut on_boundary: Vec<u8> = Vec::with_capacity(points.len());
+        for p in points {
+            columns.push(p.vertex, p.kind);
+            multiplicities.push(p.multiplicity);
+            on_boundary.push(u8::from(p.on_boundary));
+        }
+        let result = columns.object();
         set(&result, "multiplicities", &Uint32Array::from(multiplicities.as_slice()));
         set(&result, "onBoundary", &Uint8Array::from(on_boundary.as_slice()));
         set(&result, "counts", &object(&found.counts));
@@ -35,13 +37,15 @@ impl RawTriMesh {
         let link = read(options, &[&["link"]])?.delta()?.link;
         let found = field::delta_hierarchy(self.mesh(), &floats(values)?, link)?;
         let (points, curve) = (&found.points, &found.curve);
-        let vertices: Vec<u32> = points.iter().map(|p| p.vertex).collect();
-        let kinds: Vec<i8> = points.iter().map(|p| sign(p.kind)).collect();
-        let vanishes_at: Vec<f64> = points.iter().map(|p| p.vanishes_at).collect();
-        let vanishes_at_absolute: Vec<f64> = points.iter().map(|p| p.vanishes_at_absolute).collect();
-        let result = Object::new();
-        set(&result, "vertices", &Uint32Array::from(vertices.as_slice()));
-        set(&result, "kinds", &Int8Array::from(kinds.as_slice()));
+        let mut columns = Columns::with_room(points.len());
+        let mut vanishes_at: Vec<f64> = Vec::with_capacity(points.len());
+        let mut vanishes_at_absolute: Vec<f64> = Vec::with_capacity(points.len());
+        for p in points {
+            columns.push(p.vertex, p.kind);
+            vanishes_at.push(p.vanishes_at);
+            vanishes_at_absolute.push(p.vanishes_at_absolute);
+        }
+        let result = columns.object();
         set(&result, "vanishesAt", &Float64Array::from(vanishes_at.as_slice()));
         set(&result, "vanishesAtAbsolute", &Float64Array::from(vanishes_at_absolute.as_slice()));
         set(&result, "delta", &Float64Array::from(curve.delta.as_slice()));
@@ -58,5 +62,30 @@ pub(super) fn sign(kind: CriticalKind) -> i8 {
         CriticalKind::Minimum => -1,
         CriticalKind::Saddle => 0,
         CriticalKind::Maximum => 1,
+    }
+}
+
+/// What both results begin with.
+struct Columns {
+    vertices: Vec<u32>,
+    kinds: Vec<i8>,
+}
+
+impl Columns {
+    fn with_room(points: usize) -> Self {
+        Self { vertices: Vec::with_capacity(points), kinds: Vec::with_capacity(points) }
+    }
+
+    fn push(&mut self, vertex: u32, kind: CriticalKind) {
+        self.vertices.push(vertex);
+        self.kinds.push(sign(kind));
+    }
+
+    #[inline(never)]
+    fn object(&self) -> Object {
+        let result = Object::new();
+        set(&result, "vertices", &Uint32Array::from(self.vertices.as_slice()));
+        set(&result, "kinds", &Int8Array::from(self.kinds.as_slice()));
+        result
     }
 }

@@ -50,6 +50,18 @@ const SOLVER: [&[&str]; 11] = [
     &["mod"],
 ];
 
+/// The files and folders of `field` in groups, likewise.
+const FIELD: [&[&str]; 8] = [
+    &["order", "sorting", "link", "link_sides"],
+    &["direction", "critical", "steepest"],
+    &["hierarchy", "saddles", "level"],
+    &["merging"],
+    &["persistence"],
+    &["simplify"],
+    &["morse"],
+    &["mod"],
+];
+
 /// The bibliography.
 const REFERENCES: &str = include_str!("../../src/references.md");
 
@@ -126,11 +138,16 @@ fn disorder(name: &str, code: &str) -> Vec<String> {
         let leaves = code.contains("super::super");
         return leaves.then(|| "knows more than patterns".to_owned()).into_iter().collect();
     }
-    let Some(group) = SOLVER.iter().position(|group| group.contains(&name)) else {
-        return vec!["has no place among the files of the solver yet".to_owned()];
+    out_of_order(name, code, &SOLVER, &["super::"])
+}
+
+/// What a file or folder uses of the groups after its own. `paths` lead to its siblings.
+fn out_of_order(name: &str, code: &str, groups: &[&[&str]], paths: &[&str]) -> Vec<String> {
+    let Some(group) = groups.iter().position(|group| group.contains(&name)) else {
+        return vec!["has no place among the files of its module yet".to_owned()];
     };
-    let later = SOLVER[group + 1..].iter().copied().flatten();
-    let used = later.filter(|later| code.contains(&format!("super::{later}::")));
+    let later = groups[group + 1..].iter().copied().flatten();
+    let used = later.filter(|later| paths.iter().any(|path| code.contains(&format!("{path}{later}::"))));
     used.map(|later| format!("uses `{later}`, which comes after it")).collect()
 }
 
@@ -160,6 +177,13 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     }
     if let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_suffix(".rs")) {
         found.extend(disorder(name, &code).into_iter().map(|what| format!("{path} {what}")));
+    }
+    if let Some(name) = path.strip_prefix("field/") {
+        let (name, paths): (_, &[&str]) = match name.split_once('/') {
+            Some((folder, _)) => (folder, &["field::", "super::super::"]),
+            None => (name.trim_end_matches(".rs"), &["super::"]),
+        };
+        found.extend(out_of_order(name, &code, &FIELD, paths).into_iter().map(|what| format!("{path} {what}")));
     }
     match MAY_IMPORT.iter().find(|(name, _)| *name == module) {
         None => found.push(format!("{path}: the module `{module}` has no place in the layers yet")),
@@ -248,6 +272,9 @@ fn the_check_catches_what_it_is_for() {
         ("solve/tree.rs", "use super::scalar::Scalar;"),
         ("solve/lu.rs", "fn f() {}"),
         ("field/order.rs", "use std::collections::HashMap;"),
+        ("field/order.rs", "use super::critical::exact;"),
+        ("field/persistence/loops.rs", "use crate::field::simplify::Keep;"),
+        ("field/reeb.rs", "fn f() {}"),
         ("smooth/mod.rs", "let t = std::time::Instant::now();"),
         ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),
         ("error.rs", "use crate::io::MeshFormat;"),

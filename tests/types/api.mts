@@ -110,6 +110,27 @@ mesh.levelSets(heat, 5);
 // @ts-expect-error levels have no default
 mesh.levelSets(heat);
 
+const saddleLevels: api.SaddleLevels = { saddles: true, offset: 0.01 };
+mesh.levelSets(heat, saddleLevels);
+mesh.levelSets(heat, { saddles: new Uint32Array(2) });
+mesh.levelSets(heat, { saddles: [0, 7] as const });
+// @ts-expect-error all of them, or these
+mesh.levelSets(heat, { saddles: false });
+
+const cut: api.Bands = mesh.bands(heat, { count: 5 });
+mesh.bands(new Float32Array(3), [0.5]);
+same<[typeof cut.bands, typeof cut.points], [Uint32Array, Float64Array]>(true);
+const { triangles: parts, parents, levels: cuts, edges: cutEdges, parameters: cutParameters } = cut;
+// @ts-expect-error bands are cut at levels
+mesh.bands(heat, { saddles: true });
+
+const hierarchy: api.DeltaHierarchy = mesh.deltaHierarchy(heat, { link });
+mesh.deltaHierarchy([1, 2, 3]);
+same<[typeof hierarchy.kinds, typeof hierarchy.vanishesAt], [Int8Array, Float64Array]>(true);
+const { vanishesAtAbsolute, delta: steps, minima: minimaAt, maxima: maximaAt, saddles: saddlesAt } = hierarchy;
+// @ts-expect-error it is about every δ
+mesh.deltaHierarchy(heat, { delta: 0.1 });
+
 const { sobolev, laplacianNorm }: api.Smoothness = mesh.smoothness(heat, { weights: 'meanValue' });
 const matrix: api.SparseMatrix = mesh.laplacian({ weights: 'normalizedCotangent' });
 const { rows, columns, columnPointers, rowIndices, values } = matrix;
@@ -253,4 +274,5 @@ export const used = [
     iterations,
   ],
   ...[short, byLength, remade],
+  ...[parts, parents, cuts, cutEdges, cutParameters, vanishesAtAbsolute, steps, minimaAt, maximaAt, saddlesAt],
 ];

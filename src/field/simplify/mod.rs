@@ -1,15 +1,20 @@
 //! A field with fewer extrema, as near to the given one as can be: ε-simplification.
 
-use super::critical::{CriticalKind, DeltaOptions, critical_points};
-use super::direction::Sweep;
-use super::flats::{Role, Surroundings, ordered};
-use super::flooding::{flood, flood_along};
-use super::merging::Merging;
-use super::order::{VertexOrder, value_range};
-use super::saddles::Saddles;
-use super::steepest::Steepest;
-use super::tilt::tilted;
+mod flats;
+mod flooding;
+mod tilt;
+
+use flats::{Role, Surroundings, ordered};
+use flooding::{flood, flood_along};
+use tilt::tilted;
+
 use crate::error::{Error, FieldError, OptionError};
+use crate::field::critical::{CriticalKind, DeltaOptions, critical_points};
+use crate::field::direction::Sweep;
+use crate::field::merging::Merging;
+use crate::field::order::{VertexOrder, value_range};
+use crate::field::saddles::Saddles;
+use crate::field::steepest::Steepest;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// What a threshold is measured in.

@@ -1,9 +1,9 @@
 //! The mesh cut along level sets, band by band.
 
 use super::level_set::{check_levels, room};
-use super::order::VertexOrder;
 use super::saddle_levels::distinct;
 use crate::error::{Error, FieldError};
+use crate::field::order::VertexOrder;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// A mesh cut along level sets: every triangle lies in one band. Band k holds what is at least `levels[k − 1]` and less than

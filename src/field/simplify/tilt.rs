@@ -1,7 +1,7 @@
 //! Doubles for vertices that are in order but have equal levels: the smallest steps that tell neighbours apart.
 
 use super::flats::Surroundings;
-use super::sorting::sort_by_value;
+use crate::field::sorting::sort_by_value;
 use crate::mesh::Connectivity;
 
 /// Values near `levels` that ascend along every edge from the lower level to the higher, and on one level from the vertex that

@@ -1,11 +1,11 @@
 //! Raises basins without a wanted minimum up to where they overflow, or cuts hills without a wanted maximum down to there.
 
-use super::direction::Sweep;
-use super::merging::Merging;
-use super::order::VertexOrder;
-use super::saddles::Saddles;
-use super::steepest::Steepest;
 use crate::error::FieldError;
+use crate::field::direction::Sweep;
+use crate::field::merging::Merging;
+use crate::field::order::VertexOrder;
+use crate::field::saddles::Saddles;
+use crate::field::steepest::Steepest;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// The end of a list.

@@ -1,9 +1,10 @@
 //! Levels just below and just above saddles, where level sets change their shape.
 
-use super::critical::{CriticalKind, exact};
 use super::level_set::MOST_LEVELS;
-use super::order::{VertexOrder, sort, value_range};
 use crate::error::{Error, FieldError, OptionError};
+use crate::field::critical::{CriticalKind, exact};
+use crate::field::order::{VertexOrder, value_range};
+use crate::field::sorting::sort;
 use crate::mesh::TriMesh;
 
 /// Two levels for each value of a saddle, or of the given vertices: one just below and one just above.

@@ -2,8 +2,9 @@
 
 use core::ops::Range;
 
-use super::order::{VertexOrder, sort, value_range};
 use crate::error::{Error, FieldError, OptionError};
+use crate::field::order::{VertexOrder, value_range};
+use crate::field::sorting::sort;
 use crate::mesh::TriMesh;
 
 /// More levels than anyone can tell apart; the bound keeps a slip from filling the memory.

@@ -4,10 +4,10 @@ use std::collections::BinaryHeap;
 
 use core::cmp::Reverse;
 
-use super::merging::Forest;
-use super::order::VertexOrder;
-use super::saddles::Saddles;
-use super::sorting::{sort_by_key, sort_by_value};
+use crate::field::merging::Forest;
+use crate::field::order::VertexOrder;
+use crate::field::saddles::Saddles;
+use crate::field::sorting::{sort_by_key, sort_by_value};
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
 
 /// The vertices of the essential classes of dimension one of the sublevel sets, by ascending (value, id). `mergers` has for
@@ -69,7 +69,7 @@ fn bound_from_beyond(
 }
 
 /// Where sheets meet, duality fails, and the loops that come to bound are found from the coboundaries of the edges
-/// \[deSilva11\]: from the last edge to the first, the sum of the triangles at an edge is reduced by those of later edges,
+/// \[DeSilva11\]: from the last edge to the first, the sum of the triangles at an edge is reduced by those of later edges,
 /// until it is nothing or has a first triangle of its own, which then is the one that closes the loop. Nearly all edges have
 /// two triangles, so that reducing is mostly union and find.
 struct Coboundaries<'a> {

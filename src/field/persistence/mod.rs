@@ -1,14 +1,17 @@
 //! Extrema paired with saddles by persistence.
 
-use super::critical::CriticalKind;
-use super::direction::Sweep;
-use super::loops::essential_saddles;
-use super::merging::Merging;
-use super::order::VertexOrder;
-use super::saddles::Saddles;
-use super::sorting::{ascending_bits, sort_by_key};
-use super::steepest::Steepest;
+mod loops;
+
+use loops::essential_saddles;
+
 use crate::error::Error;
+use crate::field::critical::CriticalKind;
+use crate::field::direction::Sweep;
+use crate::field::merging::Merging;
+use crate::field::order::VertexOrder;
+use crate::field::saddles::Saddles;
+use crate::field::sorting::{ascending_bits, sort_by_key};
+use crate::field::steepest::Steepest;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// An extremum and the saddle at which its component of the sublevel or superlevel set joins that of an older one.
