@@ -7,7 +7,7 @@ import { build } from './build.mjs';
 import { setUp } from './setup.mjs';
 
 /** Of the page around the two views: what is left for them makes a picture as wide as a README's column. */
-const VIEWPORT = { width: 1240, height: 780 };
+const VIEWPORT = { width: 1240, height: 1115 };
 /** Twice the width that it is shown with, for screens with small pixels: a PNG of it would have a megabyte. */
 const SCALE = 2;
 const QUALITY = 0.8;

@@ -109,11 +109,20 @@ export class Page {
     );
   }
 
+  /** What a view shows, as PNG, once it shows the same twice: without a graphics card frames take their time. */
+  async picture(side) {
+    for (let last = null, tries = 0; ; tries++) {
+      // Whatever changed last is drawn in the next frame.
+      await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+      const picture = await this.at(`${side}-canvas`).screenshot();
+      if (last?.equals(picture) || tries === 10) return picture;
+      last = picture;
+    }
+  }
+
   /** How many distinct colours a view shows, and how much of it is not background. */
   async look(side) {
-    // Whatever changed last is drawn in the next frame.
-    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    const picture = await this.at(`${side}-canvas`).screenshot();
+    const picture = await this.picture(side);
     return this.page.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
       const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));

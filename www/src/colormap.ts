@@ -1,11 +1,15 @@
-/** Colour maps, as bytes: 256 sRGB colours from the low end of the range to the high end. */
-import { interpolateCividis, interpolateRdYlBu, interpolateViridis } from 'd3-scale-chromatic';
+/** Colour maps, as bytes: sRGB colours from the low end of the range to the high end; and the colours of basins. */
+import { interpolateCividis, interpolateRdYlBu, interpolateViridis, schemeSet3 } from 'd3-scale-chromatic';
 import { Color } from 'three';
 
 export const COLORMAPS = ['viridis', 'cividis', 'blueRed'] as const;
 export type ColormapName = (typeof COLORMAPS)[number];
 
-const SAMPLES = 256;
+/**
+ * As wide as any WebGL 2 can have a texture. The bands of a filled contour plot begin at a sample: that is nearer to the level
+ * than the line drawn there is wide.
+ */
+export const SAMPLES = 2048;
 
 const MAPS: Record<ColormapName, (t: number) => string> = {
   viridis: interpolateViridis,
@@ -22,4 +26,32 @@ export function colormapBytes(name: ColormapName): Uint8Array<ArrayBuffer> {
     bytes.set([hex >> 16, (hex >> 8) & 255, hex & 255, 255], 4 * k);
   }
   return bytes;
+}
+
+/**
+ * One colour between two levels: that of the middle of the band. `levels` are shares of the range, ascending. The texture is
+ * read for every pixel, so that the bands' edges do not follow those of the mesh.
+ */
+export function bandedBytes(smooth: Uint8Array, levels: readonly number[]): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(smooth.length);
+  const ends = [0, ...levels.filter((level) => level > 0 && level < 1), 1];
+  for (let band = 0; band + 1 < ends.length; band++) {
+    const [low, high] = [ends[band]!, ends[band + 1]!];
+    const middle = 4 * Math.round(((low + high) / 2) * (SAMPLES - 1));
+    const colour = smooth.subarray(middle, middle + 4);
+    for (let k = Math.round(low * (SAMPLES - 1)); k <= Math.round(high * (SAMPLES - 1)); k++) bytes.set(colour, 4 * k);
+  }
+  return bytes;
+}
+
+/** Pale enough for lines and glyphs to stand out. As many as basins.ts has colours. */
+const BASINS: readonly string[] = schemeSet3;
+const NOWHERE = '#e8ecf3';
+
+/** Linear red, green and blue of each vertex, as the graphics card mixes them. */
+export function basinColours(numbers: Uint8Array): Float32Array<ArrayBuffer> {
+  const palette = [...BASINS, NOWHERE].map((text) => new Color().setStyle(text).toArray());
+  const colours = new Float32Array(3 * numbers.length);
+  numbers.forEach((number, i) => colours.set(palette[Math.min(number, BASINS.length)]!, 3 * i));
+  return colours;
 }

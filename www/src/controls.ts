@@ -4,11 +4,12 @@ import { COLORMAPS } from './colormap';
 import type { ColormapName } from './colormap';
 import { element } from './dom';
 import type { Example } from './examples';
-import type { FieldEntry, Settings } from './protocol';
+import type { Colouring, FieldEntry, LevelPlaces, Method, Settings } from './protocol';
 import type { Layers } from './viewer';
 
 const EPSILON_RANGE = [1e-6, 1e4] as const;
 const DELTA_RANGE = [0, 0.5] as const;
+const PERSISTENCE_RANGE = [0, 1] as const;
 const LEVELS_RANGE = [0, 60] as const;
 
 const ORIGINS: readonly [FieldEntry['origin'], string][] = [
@@ -17,10 +18,18 @@ const ORIGINS: readonly [FieldEntry['origin'], string][] = [
   ['coordinate', 'Coordinates'],
 ];
 
+/** All settings but those that are made in the persistence diagram. */
+export type Choices = Omit<Settings, 'overrides' | 'paths'>;
+
 export interface ControlEvents {
   settings(): void;
+  /** Another field of the same mesh. */
+  field(): void;
+  /** Said before `settings`, for what needs no worker. */
+  delta(value: number): void;
+  persistence(value: number): void;
   layers(layers: Layers): void;
-  colormap(name: ColormapName): void;
+  colours(name: ColormapName, banded: boolean): void;
   example(id: string): void;
   meshFile(file: File): void;
   fieldFile(file: File): void;
@@ -42,11 +51,19 @@ export class Controls {
   private readonly field = select('field');
   private readonly metric = select('metric');
   private readonly link = select('link');
+  private readonly method = select('method');
+  private readonly persistence = input('persistence');
+  private readonly persistenceNumber = input('persistence-number');
+  private readonly colouring = select('colouring');
+  private readonly levelPlaces = select('level-places');
+  private readonly complex = input('show-complex');
+  /** What is shown or not without being computed anew. */
+  private readonly layerBoxes = [input('show-glyphs'), input('show-levels'), input('show-edges')] as const;
   private readonly example = select('example');
 
   constructor(
     examples: readonly Example[],
-    private readonly initial: Settings,
+    private readonly initial: Choices,
     private readonly events: ControlEvents,
   ) {
     for (const { id, label } of examples) this.example.add(new Option(label, id));
@@ -57,7 +74,7 @@ export class Controls {
   }
 
   /** The number boxes hold the exact values; the sliders follow them to their nearest step. */
-  read(): Settings {
+  read(): Choices {
     return {
       field: this.field.value,
       metric: this.metric.value as Metric,
@@ -65,16 +82,28 @@ export class Controls {
       delta: Number(this.deltaNumber.value),
       link: this.link.value as Link,
       levels: Number(this.levels.value),
+      levelPlaces: this.levelPlaces.value as LevelPlaces,
+      method: this.method.value as Method,
+      persistence: Number(this.persistenceNumber.value),
+      colouring: this.colouring.value as Colouring,
+      complex: this.complex.checked,
     };
   }
 
-  write(settings: Settings): void {
+  write(settings: Choices): void {
     this.field.value = settings.field;
     this.metric.value = settings.metric;
     this.link.value = settings.link;
     this.levels.value = String(settings.levels);
+    this.levelPlaces.value = settings.levelPlaces;
+    this.method.value = settings.method;
+    this.colouring.value = settings.colouring;
+    this.complex.checked = settings.complex;
     this.writeEpsilon(settings.epsilon);
     this.writeDelta(settings.delta);
+    this.writePersistence(settings.persistence);
+    this.showMethod();
+    this.showLayers();
   }
 
   setFields(fields: readonly FieldEntry[], chosen: string): void {
@@ -108,10 +137,44 @@ export class Controls {
     this.epsilon.setAttribute('aria-valuetext', this.epsilonNumber.value);
   }
 
-  private writeDelta(value: number): void {
+  /** As far as the curve goes: beyond it nothing changes. */
+  setDeltaEnd(end: number): void {
+    this.delta.max = String(end);
+    this.delta.step = String(end / 100);
+    this.delta.value = this.deltaNumber.value;
+  }
+
+  writeDelta(value: number): void {
     const delta = clamp(value, DELTA_RANGE);
     this.deltaNumber.value = String(Number(delta.toPrecision(6)));
     this.delta.value = String(delta);
+  }
+
+  /** Half of the slider is for the lowest quarter of the range, where most decisions fall. */
+  writePersistence(value: number): void {
+    const persistence = clamp(value, PERSISTENCE_RANGE);
+    this.persistenceNumber.value = String(Number(persistence.toPrecision(4)));
+    this.persistence.value = String(Math.sqrt(persistence));
+    this.persistence.setAttribute('aria-valuetext', this.persistenceNumber.value);
+  }
+
+  /** Only what the method takes. */
+  private showMethod(): void {
+    const isSimplify = this.method.value === 'simplify';
+    for (const part of document.querySelectorAll<HTMLElement>('[data-for-method]'))
+      part.hidden = part.dataset['forMethod'] !== this.method.value;
+    element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
+  }
+
+  private showLayers(): void {
+    const [glyphs, levels, edges] = this.layerBoxes;
+    this.events.layers({
+      glyphs: glyphs.checked,
+      levels: levels.checked,
+      edges: edges.checked,
+      complex: this.complex.checked,
+      basins: this.colouring.value !== 'value',
+    });
   }
 
   private wireSettings(): void {
@@ -123,38 +186,77 @@ export class Controls {
     });
     this.delta.addEventListener('input', () => {
       this.writeDelta(Number(this.delta.value));
-      events.settings();
+      this.changeDelta();
     });
-    const number = (box: HTMLInputElement, fallback: number, write: (value: number) => void): void => {
+    this.persistence.addEventListener('input', () => {
+      this.writePersistence(Number((Number(this.persistence.value) ** 2).toPrecision(3)));
+      this.changePersistence();
+    });
+    const number = (
+      box: HTMLInputElement,
+      fallback: number,
+      write: (value: number) => void,
+      changed = (): void => events.settings(),
+    ): void => {
       box.addEventListener('change', () => {
         write(Number.isFinite(box.valueAsNumber) ? box.valueAsNumber : fallback);
-        events.settings();
+        changed();
       });
     };
     number(this.epsilonNumber, this.initial.epsilon, (value) => this.writeEpsilon(value));
-    number(this.deltaNumber, this.initial.delta, (value) => this.writeDelta(value));
+    number(
+      this.deltaNumber,
+      this.initial.delta,
+      (value) => this.writeDelta(value),
+      () => this.changeDelta(),
+    );
+    number(
+      this.persistenceNumber,
+      this.initial.persistence,
+      (value) => this.writePersistence(value),
+      () => this.changePersistence(),
+    );
     number(this.levels, this.initial.levels, (value) => {
       this.levels.value = String(Math.round(clamp(value, LEVELS_RANGE)));
     });
-    for (const choice of [this.field, this.metric, this.link])
+    for (const choice of [this.metric, this.link, this.levelPlaces])
       choice.addEventListener('change', () => events.settings());
+    this.field.addEventListener('change', () => events.field());
+    this.method.addEventListener('change', () => {
+      this.showMethod();
+      events.settings();
+    });
     element('#controls', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
   }
 
+  /** From wherever: the slider, the number or a plot. */
+  changeDelta(): void {
+    this.events.delta(Number(this.deltaNumber.value));
+    this.events.settings();
+  }
+
+  changePersistence(): void {
+    this.events.persistence(Number(this.persistenceNumber.value));
+    this.events.settings();
+  }
+
   private wireDisplay(): void {
-    const { events } = this;
-    const glyphs = input('show-glyphs');
-    const levels = input('show-levels');
-    const edges = input('show-edges');
-    for (const box of [glyphs, levels, edges]) {
-      box.addEventListener('change', () =>
-        events.layers({ glyphs: glyphs.checked, levels: levels.checked, edges: edges.checked }),
-      );
+    const { events, complex, colouring } = this;
+    for (const box of this.layerBoxes) box.addEventListener('change', () => this.showLayers());
+    // These two have to be computed, too.
+    for (const choice of [complex, colouring]) {
+      choice.addEventListener('change', () => {
+        this.showLayers();
+        events.settings();
+      });
     }
     const colormap = select('colormap');
-    colormap.addEventListener('change', () =>
-      events.colormap(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0]),
-    );
+    const bands = input('show-bands');
+    for (const choice of [colormap, bands]) {
+      choice.addEventListener('change', () =>
+        events.colours(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0], bands.checked),
+      );
+    }
     element('#reset-view', HTMLButtonElement).addEventListener('click', () => events.resetView());
   }
 

@@ -1,5 +1,5 @@
 /** From the package's double-precision arrays to what the graphics card wants. No mathematics of fields here. */
-import type { LevelSets, TriMesh } from 'morse-smooth';
+import type { LevelSets, MorseComplex, Polylines, TriMesh } from 'morse-smooth';
 import type { DisplayMesh } from './protocol';
 
 /** Moves the bounding box's middle to the origin and the farthest vertex to distance 1. */
@@ -29,10 +29,10 @@ export function placementOf(positions: Float64Array): Placement {
 }
 
 /** Subtracting the centre in double precision keeps far-away coordinates (maps in metres) from jittering in single. */
-function place(points: Float64Array, { centre, scale }: Placement): Float32Array<ArrayBuffer> {
-  const placed = new Float32Array(points.length);
-  for (let i = 0; i < points.length; i++) placed[i] = (points[i]! - centre[i % 3]!) * scale;
-  return placed;
+export function placed(points: Float64Array, { centre, scale }: Placement): Float32Array<ArrayBuffer> {
+  const moved = new Float32Array(points.length);
+  for (let i = 0; i < points.length; i++) moved[i] = (points[i]! - centre[i % 3]!) * scale;
+  return moved;
 }
 
 /** Things that are thin along z (terrain, plates) are looked at from above; everything else stands on y. */
@@ -63,12 +63,12 @@ function facesInwards(positions: Float32Array, triangles: Uint32Array): boolean 
 }
 
 export function displayMesh(mesh: TriMesh, positions: Float64Array, placement: Placement): DisplayMesh {
-  const placed = place(positions, placement);
+  const moved = placed(positions, placement);
   const triangles = new Uint32Array(mesh.triangles());
-  if (facesInwards(placed, triangles)) {
+  if (facesInwards(moved, triangles)) {
     for (let t = 0; t < triangles.length; t += 3) triangles.subarray(t, t + 2).reverse();
   }
-  return { positions: placed, triangles, area: mesh.area * placement.scale ** 2, up: upOf(placed) };
+  return { positions: moved, triangles, area: mesh.area * placement.scale ** 2, up: upOf(moved) };
 }
 
 export function rangeOf(values: Float64Array): [number, number] {
@@ -93,23 +93,48 @@ export function shadesOf(values: Float64Array, [low, high]: [number, number]): F
 
 /** Pairs of points, six numbers a segment. */
 export function segmentsOf(lines: LevelSets, placement: Placement): Float32Array<ArrayBuffer> {
-  const points = place(lines.points, placement);
+  return segments(
+    lines,
+    placement,
+    () => true,
+    (k) => lines.closed[k] === 1,
+  );
+}
+
+/** The lines of one direction, in the same form. */
+export function pathsOf(complex: MorseComplex, kind: -1 | 1, placement: Placement): Float32Array<ArrayBuffer> {
+  return segments(
+    complex,
+    placement,
+    (k) => complex.kinds[k] === kind,
+    () => false,
+  );
+}
+
+function segments(
+  lines: Polylines,
+  placement: Placement,
+  isWanted: (line: number) => boolean,
+  isClosed: (line: number) => boolean,
+): Float32Array<ArrayBuffer> {
+  const points = placed(lines.points, placement);
   const count = lines.offsets.length - 1;
   let total = 0;
   for (let k = 0; k < count; k++)
-    total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (lines.closed[k] ? 1 : 0);
-  const segments = new Float32Array(6 * total);
+    total += Math.max(0, lines.offsets[k + 1]! - lines.offsets[k]! - 1) + (isClosed(k) ? 1 : 0);
+  const joined = new Float32Array(6 * total);
   let at = 0;
   const add = (from: number, to: number): void => {
-    segments.set(points.subarray(3 * from, 3 * from + 3), at);
-    segments.set(points.subarray(3 * to, 3 * to + 3), at + 3);
+    joined.set(points.subarray(3 * from, 3 * from + 3), at);
+    joined.set(points.subarray(3 * to, 3 * to + 3), at + 3);
     at += 6;
   };
   for (let k = 0; k < count; k++) {
+    if (!isWanted(k)) continue;
     const first = lines.offsets[k]!;
     const last = lines.offsets[k + 1]! - 1;
     for (let i = first; i < last; i++) add(i, i + 1);
-    if (lines.closed[k] && last > first) add(last, first);
+    if (isClosed(k) && last > first) add(last, first);
   }
-  return segments.slice(0, at);
+  return joined.slice(0, at);
 }

@@ -7,6 +7,7 @@ import {
   BackSide,
   BoxGeometry,
   BufferGeometry,
+  GreaterDepth,
   Group,
   IcosahedronGeometry,
   InstancedMesh,
@@ -50,12 +51,20 @@ export class GlyphLayer {
     { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }
   >();
 
-  constructor() {
+  /** `rim`: the colour around the glyphs. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
+  constructor({ rim = RIM, ghost = false, late = false }: { rim?: number; ghost?: boolean; late?: boolean } = {}) {
+    const hidden = { transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false };
+    const see = ghost ? hidden : { transparent: late };
     for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {
       this.solids.set(kind, {
         geometry: SHAPES[kind](),
-        body: new MeshLambertMaterial({ color: COLOURS[kind], emissive: COLOURS[kind], emissiveIntensity: 0.35 }),
-        rim: new MeshBasicMaterial({ color: RIM, side: BackSide }),
+        body: new MeshLambertMaterial({
+          color: COLOURS[kind],
+          emissive: COLOURS[kind],
+          emissiveIntensity: 0.35,
+          ...see,
+        }),
+        rim: new MeshBasicMaterial({ color: rim, side: BackSide, ...see }),
       });
     }
   }

@@ -1,4 +1,5 @@
 /** The colour bar: the colours from low to high, the level sets as ticks in it, numbers under it. */
+import { SAMPLES } from './colormap';
 import { element, short } from './dom';
 
 const LABELS = 5;
@@ -9,9 +10,11 @@ export class Legend {
   private readonly bar = element('#legend-bar', HTMLCanvasElement);
   private readonly ticks = element('#legend-ticks', HTMLElement);
   private readonly name = element('#legend-field', HTMLElement);
+  private readonly what = element('#legend-what', HTMLElement);
   private range: [number, number] = [0, 1];
   private levels: number[] = [];
-  private colours: Uint8Array = new Uint8Array(4 * 256);
+  private plain = false;
+  private colours: Uint8Array = new Uint8Array(4 * SAMPLES);
 
   constructor() {
     new ResizeObserver(() => this.write()).observe(this.ticks);
@@ -26,6 +29,14 @@ export class Legend {
     this.range = range;
     this.name.textContent = label;
     this.write();
+    this.draw();
+  }
+
+  /** What colours the surface where it is not the values; the bar is then about the levels alone. */
+  setBasins(what: string | null): void {
+    this.what.textContent = what === null ? 'Colours and levels of' : `${what}; bar: levels`;
+    this.name.hidden = what !== null;
+    this.plain = what !== null;
     this.draw();
   }
 
@@ -59,8 +70,10 @@ export class Legend {
     const context = this.bar.getContext('2d');
     if (!context) return;
     for (let x = 0; x < width; x++) {
-      const k = 4 * Math.round((255 * x) / (width - 1));
-      context.fillStyle = `rgb(${this.colours[k]} ${this.colours[k + 1]} ${this.colours[k + 2]})`;
+      const k = 4 * Math.round(((SAMPLES - 1) * x) / (width - 1));
+      context.fillStyle = this.plain
+        ? '#e8ecf3'
+        : `rgb(${this.colours[k]} ${this.colours[k + 1]} ${this.colours[k + 2]})`;
       context.fillRect(x, 0, 1, height);
     }
     const [low, high] = this.range;

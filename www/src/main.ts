@@ -1,14 +1,19 @@
-/** The page: joins the controls, the worker and the two views. What is computed, and when, is the worker's business. */
+/** The page: joins the controls, the worker, the two views and the plots. What is computed, and when, is the worker's business. */
 import { Client } from './client';
-import { colormapBytes } from './colormap';
+import { bandedBytes, basinColours, colormapBytes } from './colormap';
 import type { ColormapName } from './colormap';
 import { Controls } from './controls';
+import { whole } from './dom';
 import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
 import { Legend } from './legend';
 import { Panel } from './panel';
 import type { MeshSummary, Part, Request, Settings } from './protocol';
+import { NO_OVERRIDES } from './reading/pairs';
+import { Paths } from './reading/paths';
+import { Reading } from './reading/reading';
+import type { Lit } from './reading/reading';
 import { clearReport, showMesh, showReport } from './readout';
 import { Status } from './status';
 import { link } from './viewer';
@@ -21,6 +26,13 @@ const INITIAL: Settings = {
   delta: 0,
   link: 'consecutive',
   levels: OPENING.levels,
+  levelPlaces: 'even',
+  method: 'tikhonov',
+  persistence: 0.1,
+  overrides: NO_OVERRIDES,
+  colouring: 'value',
+  complex: false,
+  paths: false,
 };
 
 /** What was opened last, kept so that it can be given to a new worker. */
@@ -40,13 +52,29 @@ let source: Source | null = null;
 let offered: Source | null = null;
 let shown: MeshSummary | null = null;
 let accepted: Settings = INITIAL;
+let lit: Lit | null = null;
+let wantsPaths = false;
+let paths: Paths | null = null;
+/** Colours by value: the map, in bands between the levels or not, over the range of the field before. */
+let map: ColormapName = 'viridis';
+let banded = false;
+let levels: number[] = [];
+let valueRange: [number, number] = [0, 1];
+/** How many there are on each side. */
+const basins = { before: 0, after: 0 };
 /** Counts examples asked for, so that a slow download does not overtake a later choice. */
 let choice = 0;
 
 const controls = new Controls(EXAMPLES, INITIAL, {
-  settings: () => ask({ kind: 'update', settings: controls.read() }),
+  settings: update,
+  field: () => {
+    forgetDecisions();
+    update();
+  },
+  delta: showDelta,
+  persistence: (value) => reading.setThreshold(value),
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
-  colormap: setColormap,
+  colours: setColours,
   example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
   meshFile: (file) => openFiles([file]),
   fieldFile: addField,
@@ -55,12 +83,30 @@ const controls = new Controls(EXAMPLES, INITIAL, {
   stop,
 });
 
+const reading = new Reading({
+  delta: (value) => {
+    controls.writeDelta(value);
+    controls.changeDelta();
+  },
+  deltaEnd: (value) => controls.setDeltaEnd(value),
+  threshold: (value) => {
+    controls.writePersistence(value);
+    controls.changePersistence();
+  },
+  overrides: update,
+  lit: light,
+});
+reading.setState(INITIAL.delta, INITIAL.persistence, INITIAL.overrides);
+
 const client = new Client({
   part: show,
   progress: (fraction) => status.progress(fraction),
   working: (request) => status.working(describe(request)),
   done: (request, settings) => {
-    if (request.kind === 'addField') source?.added.push(request.file);
+    if (request.kind === 'addField') {
+      source?.added.push(request.file);
+      if (!client.busy) forgetDecisions();
+    }
     if (request.kind === 'open' && !request.smooth)
       panels.after.say('Stopped. Another ε, metric or field smooths again.');
     if (settings) accepted = settings;
@@ -71,13 +117,30 @@ const client = new Client({
     offered = null;
     if (settings) accepted = settings;
     // Back to what is shown, unless the user has already asked for something else.
-    if (settings && !client.busy) controls.write(settings);
+    if (settings && !client.busy) writeSettings(settings);
     showSource();
     for (const panel of Object.values(panels))
       if (panel.awaiting) panel.say(shown ? 'There is no smoothed field.' : 'No mesh is open.');
   },
   idle: () => status.idle(),
 });
+
+function readSettings(): Settings {
+  return { ...controls.read(), overrides: reading.overrides, paths: wantsPaths };
+}
+
+function writeSettings(settings: Settings): void {
+  controls.write(settings);
+  reading.setState(settings.delta, settings.persistence, settings.overrides);
+  for (const panel of Object.values(panels)) panel.setDelta(settings.delta);
+  nameColours();
+}
+
+/** They are about the pairs of one field. */
+function forgetDecisions(): void {
+  const { delta, persistence } = controls.read();
+  reading.setState(delta, persistence, NO_OVERRIDES);
+}
 
 function eachViewer(use: (viewer: NonNullable<Panel['viewer']>) => void): void {
   for (const { viewer } of Object.values(panels)) if (viewer) use(viewer);
@@ -106,17 +169,32 @@ function show(part: Part): void {
       return controls.setFields(part.fields, part.chosen);
     case 'values':
       return showValues(part);
-    case 'critical':
-      panels[part.side].viewer?.setCritical(part.vertices, part.kinds);
-      if (shown) panels[part.side].setCounts(part.counts, shown.topology);
+    case 'hierarchy':
+      reading.setHierarchy(part.side, part.hierarchy);
+      if (shown) panels[part.side].setHierarchy(part.counts, part.hierarchy, shown.topology, controls.read().delta);
       return;
+    case 'pairs':
+      return reading.setPairs(part.pairs, part.range);
     case 'lines':
       panels[part.side].viewer?.setLines(part.segments);
-      if (part.side === 'before') legend.setLevels(part.levels);
+      if (part.side === 'before') {
+        levels = part.levels;
+        legend.setLevels(levels);
+        if (banded) paint();
+      }
       return;
+    case 'complex':
+      return panels[part.side].viewer?.setComplex(part.descending, part.ascending);
+    case 'arcs':
+      paths = new Paths(part.arcs);
+      return light(lit);
+    case 'basins':
+      basins[part.side] = part.count;
+      panels[part.side].viewer?.setBasins(basinColours(part.colours));
+      return nameColours();
     case 'report':
       controls.setSaveable(true);
-      return showReport(part.report, part.milliseconds);
+      return showReport(part.report);
     case 'saved':
       return download(part.name, part.bytes);
   }
@@ -136,9 +214,12 @@ function showNewMesh({ summary, mesh }: Extract<Part, { kind: 'mesh' }>): void {
 function showValues({ side, label, range, shades }: Extract<Part, { kind: 'values' }>): void {
   panels[side].setShades(label, shades);
   if (side === 'after') return;
+  valueRange = range;
+  paths = null;
   legend.setRange(label, range);
   // The field is another one: what stands on the other side belongs to the last.
   panels.after.clear('Smoothing…');
+  reading.setHierarchy('after', null);
   clearReport();
   controls.setSaveable(false);
 }
@@ -160,6 +241,11 @@ function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
 
 // ---------------------------------------------------------------- what the user asks for
 
+function update(): void {
+  nameColours();
+  ask({ kind: 'update', settings: readSettings() });
+}
+
 /** For the mesh that is open: a worker that broke down has to be given it again. */
 function ask(request: Request): void {
   if (client.lost && source) open(source, accepted, !panels.after.awaiting);
@@ -177,9 +263,9 @@ async function openExample(example: Example): Promise<void> {
     const file = await fetchExample(example);
     if (mine !== choice) return;
     const { field, epsilon, levels } = example;
-    controls.write({ ...controls.read(), epsilon, levels, delta: 0 });
+    writeSettings({ ...readSettings(), epsilon, levels, delta: 0, overrides: NO_OVERRIDES });
     offered = { file, example, added: [] };
-    open(offered, { ...controls.read(), field });
+    open(offered, { ...readSettings(), field });
   } catch (error) {
     complain('NotFetched', `The example could not be fetched. ${error instanceof Error ? error.message : ''}`);
   }
@@ -191,14 +277,14 @@ function openFiles(files: File[]): void {
   if (mesh) {
     choice += 1;
     offered = { file: mesh, example: null, added: [] };
-    controls.write({ ...controls.read(), delta: 0 });
-    open(offered, { ...controls.read(), field: '' });
+    writeSettings({ ...readSettings(), delta: 0, overrides: NO_OVERRIDES });
+    open(offered, { ...readSettings(), field: '' });
   }
   for (const file of files) if (isFieldName(file.name)) addField(file);
 }
 
 function addField(file: File): void {
-  ask({ kind: 'addField', file, settings: controls.read() });
+  ask({ kind: 'addField', file, settings: { ...readSettings(), overrides: NO_OVERRIDES } });
 }
 
 /** A worker that computes cannot listen: ending it is the only way to make it stop. */
@@ -206,7 +292,7 @@ function stop(): void {
   client.restart();
   offered = null;
   if (source) {
-    controls.write(accepted);
+    writeSettings(accepted);
     showSource();
     // Smoothing is left out where it was the very thing that took too long.
     open(source, accepted, !panels.after.awaiting);
@@ -221,17 +307,53 @@ function complain(code: string, message: string): void {
   if (!client.busy) status.idle();
 }
 
-function setColormap(name: ColormapName): void {
-  const bytes = colormapBytes(name);
+function setColours(name: ColormapName, inBands: boolean): void {
+  map = name;
+  banded = inBands;
+  paint();
+}
+
+function paint(): void {
+  const [low, high] = valueRange;
+  const smooth = colormapBytes(map);
+  const bytes = banded
+    ? bandedBytes(
+        smooth,
+        levels.map((level) => (level - low) / (high - low)),
+      )
+    : smooth;
   legend.setColormap(bytes);
-  eachViewer((viewer) => viewer.setColormap(bytes));
+  eachViewer((viewer) => viewer.setColormap(bytes, banded));
+}
+
+/** What the colours mean, where they are not those of the bar. */
+function nameColours(): void {
+  const { colouring } = controls.read();
+  const counts = `${whole(basins.before)} → ${whole(basins.after)}`;
+  legend.setBasins(colouring === 'value' ? null : `${counts} basins of ${colouring}`);
+}
+
+/** At once: the page knows the critical points of every δ. */
+function showDelta(delta: number): void {
+  reading.setDelta(delta);
+  for (const panel of Object.values(panels)) panel.setDelta(delta);
+}
+
+/** The ways between pairs are asked for when somebody first points at one. */
+function light(pair: Lit | null): void {
+  lit = pair;
+  const path = pair ? paths?.between(pair) : undefined;
+  for (const panel of Object.values(panels)) panel.setLit(pair, path);
+  if (!pair || wantsPaths) return;
+  wantsPaths = true;
+  update();
 }
 
 function resetView(): void {
   panels.before.viewer?.frameMesh(source?.example?.view ?? DEFAULT_VIEW);
 }
 
-setColormap('viridis');
+paint();
 acceptDrops(openFiles);
 // An address can name the example to open: …/#torus.
 void openExample(EXAMPLES.find(({ id }) => location.hash === `#${id}`) ?? OPENING);

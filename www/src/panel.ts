@@ -1,7 +1,9 @@
 /** One side of the page, before or after: its view, its counts and its check of Euler's formula. */
 import type { CriticalCounts, MeshTopology } from 'morse-smooth';
 import { element, whole } from './dom';
-import type { Side } from './protocol';
+import type { Hierarchy, Side } from './protocol';
+import type { Lit } from './reading/reading';
+import { criticalAt, countsAt } from './reading/steps';
 import { Viewer } from './viewer';
 
 export class Panel {
@@ -10,6 +12,7 @@ export class Panel {
   /** True while there is no field to show. */
   awaiting = true;
   private readonly root: HTMLElement;
+  private critical: { counts: CriticalCounts; hierarchy: Hierarchy; topology: MeshTopology } | null = null;
 
   constructor(side: Side) {
     this.root = element(`[data-testid="${side}"]`, HTMLElement);
@@ -36,8 +39,31 @@ export class Panel {
     empty.hidden = text === '';
   }
 
+  /** `counts`: at δ = 0. */
+  setHierarchy(counts: CriticalCounts, hierarchy: Hierarchy, topology: MeshTopology, delta: number): void {
+    this.critical = { counts, hierarchy, topology };
+    this.setDelta(delta);
+  }
+
+  /** The hierarchy has the answer for every δ: nothing needs to be computed while the slider moves. */
+  setDelta(delta: number): void {
+    if (!this.critical) return;
+    const { counts, hierarchy, topology } = this.critical;
+    const { vertices, kinds } = criticalAt(hierarchy, delta);
+    this.viewer?.setCritical(vertices, kinds);
+    this.setCounts({ ...countsAt(hierarchy, delta), indexSum: delta === 0 ? counts.indexSum : null }, topology);
+  }
+
+  /** Names the pair that is lit in this view, if any. */
+  setLit(pair: Lit | null, path?: Float32Array): void {
+    if (pair && !this.awaiting) this.root.dataset['lit'] = `${pair.extremum} ${pair.saddle}`;
+    else delete this.root.dataset['lit'];
+    this.root.dataset['path'] = String((path?.length ?? 0) / 6);
+    this.viewer?.setLit(pair, path);
+  }
+
   /** On every mesh the indices of all vertices add up to its Euler characteristic; on a closed one that is m + M − s. */
-  setCounts(counts: CriticalCounts, { eulerCharacteristic, closed }: MeshTopology): void {
+  private setCounts(counts: CriticalCounts, { eulerCharacteristic, closed }: MeshTopology): void {
     const { minima, maxima, saddles, indexSum } = counts;
     this.part('minima').textContent = whole(minima);
     this.part('maxima').textContent = whole(maxima);
@@ -54,6 +80,8 @@ export class Panel {
 
   clear(text: string): void {
     this.awaiting = true;
+    this.critical = null;
+    this.setLit(null);
     this.part('label').textContent = '';
     for (const part of ['minima', 'maxima', 'saddles']) this.part(part).textContent = '–';
     this.part('euler').textContent = '';

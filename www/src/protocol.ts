@@ -4,9 +4,21 @@
  * The page sends one request at a time and the worker answers each with any number of parts, then `done` or `failed`.
  * Only what changed is sent, so that a δ slider does not resend the mesh.
  */
-import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, Metric, SmoothReport } from 'morse-smooth';
+import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, Metric } from 'morse-smooth';
 
 export type Side = 'before' | 'after';
+/** What makes the field on the right: least squares, or the removal of pairs of critical points. */
+export type Method = 'tikhonov' | 'simplify';
+/** What colours the surface: the values, or the basins of one kind of extremum. */
+export type Colouring = 'value' | 'minima' | 'maxima';
+/** Where the level sets are: evenly over the range, or on either side of saddles. */
+export type LevelPlaces = 'even' | 'saddles';
+
+/** Pairs that are kept or dropped whatever the threshold says, by their extremum. */
+export interface Overrides {
+  kept: number[];
+  dropped: number[];
+}
 
 /** Everything that the numbers on the page depend on. `field` is a key of `MeshSummary.fields`. */
 export interface Settings {
@@ -16,8 +28,71 @@ export interface Settings {
   /** Relative to the largest difference over an edge. */
   delta: number;
   link: Link;
-  /** Number of level sets. */
+  /** Number of level sets; with `levelPlaces` at saddles, the number of saddles. */
   levels: number;
+  levelPlaces: LevelPlaces;
+  method: Method;
+  /** Pairs of persistence above it are kept; relative to the range. */
+  persistence: number;
+  overrides: Overrides;
+  colouring: Colouring;
+  /** Whether the Morse complex is shown, and so has to be computed. */
+  complex: boolean;
+  /** Whether a pair was ever pointed at, so that the ways between pairs are wanted. */
+  paths: boolean;
+}
+
+/** What became of the field; null where the method has no such number. */
+export interface AfterReport {
+  lInfinity: number;
+  sobolevBefore: number;
+  sobolevAfter: number;
+  residual: number | null;
+  route: string | null;
+  pairsRemoved: number | null;
+  milliseconds: number;
+}
+
+/** Steps over the relative δ: row k holds from `delta[k]` up to, not including, `delta[k + 1]`. */
+export interface Steps {
+  delta: Float64Array<ArrayBuffer>;
+  minima: Uint32Array<ArrayBuffer>;
+  maxima: Uint32Array<ArrayBuffer>;
+  saddles: Uint32Array<ArrayBuffer>;
+}
+
+/** Critical points at every δ. */
+export interface Hierarchy extends Steps {
+  vertices: Uint32Array<ArrayBuffer>;
+  kinds: Int8Array<ArrayBuffer>;
+  vanishesAt: Float64Array<ArrayBuffer>;
+}
+
+/** Pairs of critical points, the most persistent one first, and what has no partner. */
+export interface Pairs {
+  extrema: Uint32Array<ArrayBuffer>;
+  saddles: Uint32Array<ArrayBuffer>;
+  /** −1 minimum and saddle, 1 saddle and maximum. */
+  kinds: Int8Array<ArrayBuffer>;
+  birth: Float64Array<ArrayBuffer>;
+  death: Float64Array<ArrayBuffer>;
+  persistence: Float64Array<ArrayBuffer>;
+  essential: Uint32Array<ArrayBuffer>;
+  /** −1 minimum, 0 saddle, 1 maximum. */
+  essentialKinds: Int8Array<ArrayBuffer>;
+  essentialValues: Float64Array<ArrayBuffer>;
+}
+
+/** The lines of the Morse complex, whole, each with its two ends. */
+export interface Arcs {
+  points: Float32Array<ArrayBuffer>;
+  offsets: Uint32Array<ArrayBuffer>;
+  saddles: Uint32Array<ArrayBuffer>;
+  extrema: Uint32Array<ArrayBuffer>;
+  /** −1 to a minimum, 1 to a maximum. */
+  kinds: Int8Array<ArrayBuffer>;
+  /** The value at the saddle of each line. */
+  heights: Float64Array<ArrayBuffer>;
 }
 
 export interface FieldEntry {
@@ -63,16 +138,16 @@ export type Part =
   | { kind: 'fields'; fields: FieldEntry[]; chosen: string }
   /** A new field: whatever was shown as its smoothed version is out of date. */
   | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array<ArrayBuffer> }
-  | {
-      kind: 'critical';
-      side: Side;
-      vertices: Uint32Array<ArrayBuffer>;
-      kinds: Int8Array<ArrayBuffer>;
-      counts: CriticalCounts;
-      delta: number;
-    }
+  /** `counts`: at δ = 0. */
+  | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy }
+  | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
   | { kind: 'lines'; side: Side; segments: Float32Array<ArrayBuffer>; levels: number[] }
-  | { kind: 'report'; report: SmoothReport; milliseconds: number }
+  | { kind: 'complex'; side: Side; descending: Float32Array<ArrayBuffer>; ascending: Float32Array<ArrayBuffer> }
+  /** Of the field before. */
+  | { kind: 'arcs'; arcs: Arcs }
+  /** `colours`: for each vertex the number of a colour; 255 where it belongs to no basin. */
+  | { kind: 'basins'; side: Side; colours: Uint8Array<ArrayBuffer>; count: number }
+  | { kind: 'report'; report: AfterReport }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };
 
 export type Reply =

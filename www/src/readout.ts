@@ -1,26 +1,28 @@
-/** The facts of the mesh and the numbers of the last smoothing, as text. */
-import type { SmoothReport } from 'morse-smooth';
+/** The facts of the mesh and the numbers of what was last done to the field, as text. */
 import { element, short, whole } from './dom';
-import type { MeshSummary } from './protocol';
+import type { AfterReport, MeshSummary } from './protocol';
 
 const text = (id: string, value: string): void => {
   element(`#${id}`, HTMLElement).textContent = value;
 };
 
-export function showReport(report: SmoothReport, milliseconds: number): void {
-  const { solver } = report;
-  text('read-linf', `${short(100 * report.lInfinity)} % of the range`);
-  text('read-sobolev', `${short(report.sobolevBefore)} → ${short(report.sobolevAfter)}`);
-  text('read-residual', short(solver.relativeResidual));
+const IDS = ['read-linf', 'read-sobolev', 'read-residual', 'read-pairs', 'read-time', 'read-solver'] as const;
+
+export function showReport(report: AfterReport): void {
+  const { lInfinity, sobolevBefore, sobolevAfter, residual, route, pairsRemoved, milliseconds } = report;
+  text('read-linf', `${short(100 * lInfinity)} % of the range`);
+  text('read-sobolev', `${short(sobolevBefore)} → ${short(sobolevAfter)}`);
+  text('read-residual', residual === null ? '–' : short(residual));
+  text('read-pairs', pairsRemoved === null ? '–' : whole(pairsRemoved));
   text(
     'read-time',
     milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`,
   );
-  text('read-solver', solver.route);
+  text('read-solver', route ?? '–');
 }
 
 export function clearReport(): void {
-  for (const id of ['read-linf', 'read-sobolev', 'read-residual', 'read-time', 'read-solver']) text(id, '–');
+  for (const id of IDS) text(id, '–');
 }
 
 export function showMesh({ vertexCount, triangleCount, topology, warnings }: MeshSummary): void {

@@ -5,11 +5,14 @@
  * that fails sends nothing, so that the page goes on with what it had.
  */
 import { Smoother, writeMesh } from 'morse-smooth';
-import type { MeshFile, TriMesh } from 'morse-smooth';
-import { displayMesh, placementOf, rangeOf, segmentsOf, shadesOf } from './display';
+import type { MeshFile, PersistencePairs, TriMesh } from 'morse-smooth';
+import { colourBasins } from './basins';
+import { displayMesh, placementOf, rangeOf, shadesOf } from './display';
 import type { Placement } from './display';
 import { Refusal } from './failure';
-import type { FieldEntry, Part, Settings, Side } from './protocol';
+import { arcsPart, complexPart, hierarchyPart, keptExtrema, levelLines, linesPart, pairsPart } from './findings';
+import type { AfterReport, FieldEntry, Part, Settings, Side } from './protocol';
+import { hasOverrides, keptPairs } from './reading/pairs';
 
 export type Send = (part: Part) => void;
 
@@ -26,8 +29,15 @@ export class Session {
   private readonly placement: Placement;
   private readonly entries: FieldEntry[];
   private readonly fields = new Map<string, Float64Array>();
+  private readonly triangles: Uint32Array;
   private smoother: Smoother | null = null;
   private smoothed: Float64Array | null = null;
+  /** Of the field before. */
+  private pairs: PersistencePairs | null = null;
+  /** Where the lines on both sides are. */
+  private levels: number[] = [];
+  /** The colours of the basins before, by their extrema. */
+  private basinColours: ReadonlyMap<number, number> = new Map();
   /** Key of a smoothing that is not to be tried again, since it took too long. */
   private leftOut: string | null = null;
   /** Key of the settings behind each thing that the page holds. */
@@ -42,6 +52,7 @@ export class Session {
     this.mesh = file.mesh;
     this.name = name;
     this.positions = file.mesh.positions();
+    this.triangles = file.mesh.triangles();
     this.placement = placementOf(this.positions);
     this.entries = [];
     for (const [label, values] of Object.entries(file.fields))
@@ -95,10 +106,11 @@ export class Session {
     const { settings, smoothed } = this;
     if (!settings || !smoothed) throw new Refusal('NothingToSave', 'There is no smoothed field yet.');
     const label = this.labelOf(settings.field);
-    const fields = { [label]: this.fields.get(settings.field)!, [`${label}_smoothed`]: smoothed };
+    const suffix = settings.method === 'simplify' ? 'simplified' : 'smoothed';
+    const fields = { [label]: this.fields.get(settings.field)!, [`${label}_${suffix}`]: smoothed };
     const bytes = writeMesh(this.mesh, { format: 'ply', fields: plainNames(fields), binary: true });
     const stem = this.name.replace(/\.[^.]*$/, '');
-    send({ kind: 'saved', name: `${stem}_smoothed.ply`, bytes: new Uint8Array(bytes) });
+    send({ kind: 'saved', name: `${stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
   }
 
   /** The page goes on without a smoothed field until something that it depends on changes. */
@@ -117,29 +129,59 @@ export class Session {
     const values = this.fields.get(field)!;
     const parts: Part[] = [];
     const keys: [string, string][] = [];
-    const stage = (slot: string, key: string, make: () => Part): void => {
-      if (this.sent.get(slot) === key) return;
-      parts.push(make());
+    const isDue = (slot: string, key: string): boolean => {
+      if (this.sent.get(slot) === key) return false;
       keys.push([slot, key]);
+      return true;
     };
-    stage('values', field, () => {
+    let { pairs, levels, basinColours } = this;
+
+    if (isDue('values', field)) {
       const range = rangeOf(values);
-      return { kind: 'values', side: 'before', label: this.labelOf(field), range, shades: shadesOf(values, range) };
-    });
-    stage('before.critical', `${field} ${wanted.delta} ${wanted.link}`, () => this.critical('before', values, wanted));
-    stage('before.lines', `${field} ${wanted.levels}`, () =>
-      this.lines('before', values, levelsOf(values, wanted.levels)),
-    );
+      parts.push({
+        kind: 'values',
+        side: 'before',
+        label: this.labelOf(field),
+        range,
+        shades: shadesOf(values, range),
+      });
+    }
+    if (isDue('before.hierarchy', `${field} ${wanted.link}`))
+      parts.push(hierarchyPart(this.mesh, 'before', values, wanted));
+    if (isDue('before.pairs', field) || !pairs) {
+      pairs = this.mesh.persistence(values);
+      parts.push(pairsPart(pairs, values));
+    }
+    if (isDue('before.lines', linesKey(field, wanted))) {
+      const lines = levelLines(this.mesh, values, pairs, this.placement, wanted);
+      levels = lines.levels;
+      parts.push(lines);
+    }
+    const { complex, colouring, persistence } = wanted;
+    if (complex && isDue('before.complex', `${field} ${persistence}`))
+      parts.push(complexPart(this.mesh, 'before', values, persistence, this.placement));
+    if (colouring !== 'value' && isDue('before.basins', `${field} ${persistence} ${colouring}`)) {
+      const { part, byExtremum } = this.basins('before', values, colouring, persistence);
+      basinColours = byExtremum;
+      parts.push(part);
+    }
+
+    if (wanted.paths && isDue('before.arcs', field)) parts.push(arcsPart(this.mesh, values, this.placement));
 
     announce?.();
     if (keys.some(([slot]) => slot === 'values')) {
       this.smoothed = null;
-      for (const slot of ['smoothed', 'after.critical', 'after.lines']) this.sent.delete(slot);
+      for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
     }
+    Object.assign(this, { pairs, levels, basinColours });
     for (const [slot, key] of keys) this.sent.set(slot, key);
     parts.forEach(send);
-    const { metric, epsilon } = this.settings ?? wanted;
-    this.settings = { ...wanted, field, metric, epsilon };
+    // What belongs to the other side is still what it was.
+    const last = this.settings ?? wanted;
+    const { metric, epsilon, method, persistence: threshold, overrides } = last;
+    this.settings = { ...wanted, field, metric, epsilon, method };
+    if (method === 'simplify' && wanted.method === 'simplify' && field === last.field)
+      Object.assign(this.settings, { persistence: threshold, overrides });
   }
 
   updateAfter(wanted: Settings, send: Send): void {
@@ -150,46 +192,78 @@ export class Session {
     this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       const start = performance.now();
-      // Kept for the mesh: its operators and symbolic factors serve every ε and every field.
-      this.smoother ??= new Smoother(this.mesh, { onProgress: ({ fraction }) => this.onProgress(fraction) });
-      const { values, report } = this.smoother.tikhonov(before, { epsilon: wanted.epsilon, metric: wanted.metric });
-      const milliseconds = performance.now() - start;
+      const { values, ...report } =
+        wanted.method === 'simplify' ? this.simplified(before, wanted) : this.tikhonov(before, wanted);
       this.smoothed = values;
       this.sent.set('smoothed', key);
       // Coloured by the range of the input, so that a loss of amplitude shows.
       const shades = shadesOf(values, rangeOf(before));
       send({ kind: 'values', side: 'after', label: this.labelOf(field), range: rangeOf(values), shades });
-      send({ kind: 'report', report, milliseconds });
+      send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
     }
     const values = this.smoothed;
-    const criticalKey = `${key} ${wanted.delta} ${wanted.link}`;
-    if (this.sent.get('after.critical') !== criticalKey) {
-      send(this.critical('after', values, wanted));
-      this.sent.set('after.critical', criticalKey);
-    }
-    const linesKey = `${key} ${wanted.levels}`;
-    if (this.sent.get('after.lines') !== linesKey) {
-      send(this.lines('after', values, levelsOf(before, wanted.levels)));
-      this.sent.set('after.lines', linesKey);
-    }
+    const stage = (slot: string, slotKey: string, make: () => Part): void => {
+      if (this.sent.get(slot) === slotKey) return;
+      send(make());
+      this.sent.set(slot, slotKey);
+    };
+    const { complex, colouring, persistence } = wanted;
+    stage('after.hierarchy', `${key} ${wanted.link}`, () => hierarchyPart(this.mesh, 'after', values, wanted));
+    stage('after.lines', `${key} ${linesKey(field, wanted)}`, () =>
+      linesPart(this.mesh, 'after', values, this.levels, this.placement),
+    );
+    if (complex) stage('after.complex', key, () => complexPart(this.mesh, 'after', values, 0, this.placement));
+    // The colours follow those on the left, which depend on the threshold.
+    if (colouring !== 'value')
+      stage(
+        'after.basins',
+        `${key} ${persistence} ${colouring}`,
+        () => this.basins('after', values, colouring, 0).part,
+      );
     this.settings = { ...wanted, field };
   }
 
-  private critical(side: Side, values: Float64Array, { delta, link }: Settings): Part {
-    const found = this.mesh.criticalPoints(values, { delta, link });
+  private tikhonov(before: Float64Array, { epsilon, metric }: Settings): Result {
+    // Kept for the mesh: its operators and symbolic factors serve every ε and every field.
+    this.smoother ??= new Smoother(this.mesh, { onProgress: ({ fraction }) => this.onProgress(fraction) });
+    const { values, report } = this.smoother.tikhonov(before, { epsilon, metric });
+    const { lInfinity, sobolevBefore, sobolevAfter, solver } = report;
+    const { relativeResidual: residual, route } = solver;
+    return { values, lInfinity, sobolevBefore, sobolevAfter, residual, route, pairsRemoved: null };
+  }
+
+  private simplified(before: Float64Array, settings: Settings): Result {
+    const pairs = this.pairs!;
+    const { persistence, overrides } = settings;
+    const values = this.mesh.simplify(
+      before,
+      hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence },
+    );
+    const [low, high] = rangeOf(before);
+    const range = high > low ? high - low : 1;
+    let largest = 0;
+    for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!));
     return {
-      kind: 'critical',
-      side,
-      delta,
-      counts: found.counts,
-      vertices: new Uint32Array(found.vertices),
-      kinds: new Int8Array(found.kinds),
+      values,
+      lInfinity: largest / range,
+      sobolevBefore: this.mesh.smoothness(before).sobolev / range ** 2,
+      sobolevAfter: this.mesh.smoothness(values).sobolev / range ** 2,
+      residual: null,
+      route: null,
+      pairsRemoved: pairs.extrema.length - keptPairs(pairs, persistence * (high - low), overrides).length,
     };
   }
 
-  private lines(side: Side, values: Float64Array, levels: number[]): Part {
-    const found = this.mesh.levelSets(values, levels);
-    return { kind: 'lines', side, levels, segments: segmentsOf(found, this.placement) };
+  private basins(side: Side, values: Float64Array, colouring: 'minima' | 'maxima', persistence: number) {
+    const found = this.mesh.basins(values, { persistence });
+    const labels = colouring === 'minima' ? found.descending : found.ascending;
+    const { colours, byExtremum } = colourBasins(
+      labels,
+      this.triangles,
+      side === 'after' ? this.basinColours : undefined,
+    );
+    const part: Part = { kind: 'basins', side, colours, count: byExtremum.size };
+    return { part, byExtremum };
   }
 
   private enter(entry: FieldEntry, values: Float64Array): void {
@@ -210,18 +284,23 @@ export class Session {
   }
 }
 
-function smoothingKey({ field, metric, epsilon }: Settings): string {
-  return `${field} ${metric} ${epsilon}`;
+/** A field and what became of it; the time is measured around it. */
+type Result = Omit<AfterReport, 'milliseconds'> & { values: Float64Array };
+
+const isAfter = (slot: string): boolean => slot === 'smoothed' || slot.startsWith('after.');
+
+/** Everything that the field after depends on, and nothing else. */
+function smoothingKey({ field, method, metric, epsilon, persistence, overrides }: Settings): string {
+  return method === 'simplify'
+    ? `${field} simplify ${persistence} ${JSON.stringify(overrides)}`
+    : `${field} ${metric} ${epsilon}`;
 }
 
-/**
- * Evenly spaced inside the range, ends left out. The same levels serve both sides: lines that move are then the field's
- * doing and not the choice of levels.
- */
-function levelsOf(values: Float64Array, count: number): number[] {
-  const [low, high] = rangeOf(values);
-  if (!(high > low)) return [];
-  return Array.from({ length: count }, (_, k) => low + ((high - low) * (k + 1)) / (count + 1));
+/** Everything that the levels depend on. */
+function linesKey(field: string, { levels, levelPlaces, persistence, overrides }: Settings): string {
+  return levelPlaces === 'even'
+    ? `${field} ${levels}`
+    : `${field} ${levels} ${persistence} ${JSON.stringify(overrides)}`;
 }
 
 /** PLY property names are single words. */

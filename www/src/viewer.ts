@@ -14,6 +14,7 @@ import {
   Matrix4,
   Mesh,
   MeshLambertMaterial,
+  NearestFilter,
   PerspectiveCamera,
   Scene,
   SRGBColorSpace,
@@ -22,11 +23,12 @@ import {
   WireframeGeometry,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
-import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import { SAMPLES } from './colormap';
+import { CurveLayer } from './curves';
 import { GlyphLayer, glyphRadius } from './glyphs';
+import { Marker } from './marker';
 import type { DisplayMesh } from './protocol';
+import type { Lit } from './reading/reading';
 
 const BACKGROUND = 0xffffff;
 const FIELD_OF_VIEW = 30;
@@ -40,7 +42,15 @@ export interface Layers {
   glyphs: boolean;
   levels: boolean;
   edges: boolean;
+  complex: boolean;
+  /** Colours by basin instead of by value. */
+  basins: boolean;
 }
+
+/** Of the Morse complex: towards minima and towards maxima, near to the colours of those. */
+const DESCENDING = 0x8fc1ff;
+const ASCENDING = 0xff8a8f;
+const DARK = 0x0d1320;
 
 export class Viewer {
   /** Called after the user has moved this view's camera. */
@@ -53,12 +63,17 @@ export class Viewer {
   /** Turned so that what is "up" in the file is up on the screen. */
   private readonly model = new Group();
   private readonly surface: Mesh<BufferGeometry, MeshLambertMaterial>;
-  private readonly lines: LineSegments2;
+  private readonly plainMaterial: MeshLambertMaterial;
+  private readonly basinMaterial: MeshLambertMaterial;
+  private readonly lines = new CurveLayer({ colour: DARK, width: 1.6, opacity: 0.85 });
+  private readonly descending = new CurveLayer({ colour: DESCENDING, width: 2, casing: DARK });
+  private readonly ascending = new CurveLayer({ colour: ASCENDING, width: 2, casing: DARK });
+  private readonly marker = new Marker();
   private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly glyphs = new GlyphLayer();
   private readonly texture: DataTexture;
   private mesh: DisplayMesh | null = null;
-  private layers: Layers = { glyphs: true, levels: true, edges: false };
+  private layers: Layers = { glyphs: true, levels: true, edges: false, complex: false, basins: false };
   private critical: { vertices: Uint32Array; kinds: Int8Array } | null = null;
   private frame = 0;
 
@@ -68,28 +83,23 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.background = new Color(BACKGROUND);
 
-    this.texture = new DataTexture(new Uint8Array(4 * 256), 256, 1);
+    this.texture = new DataTexture(new Uint8Array(4 * SAMPLES), SAMPLES, 1);
     this.texture.colorSpace = SRGBColorSpace;
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
 
     // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
-    const material = new MeshLambertMaterial({
-      map: this.texture,
-      side: DoubleSide,
-      polygonOffset: true,
-      polygonOffsetFactor: 1.5,
-      polygonOffsetUnits: 4,
-    });
-    this.surface = new Mesh(new BufferGeometry(), material);
-    this.lines = new LineSegments2(
-      new LineSegmentsGeometry(),
-      new LineMaterial({ color: 0x0d1320, linewidth: 1.6, transparent: true, opacity: 0.85 }),
-    );
+    const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 4 } as const;
+    this.plainMaterial = new MeshLambertMaterial({ ...pushed, map: this.texture });
+    this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
+    this.surface = new Mesh(new BufferGeometry(), this.plainMaterial);
+    // Before the lines, some of which leave no trace in depth.
+    this.surface.renderOrder = -1;
     this.edges = new LineSegments(
       new BufferGeometry(),
-      new LineBasicMaterial({ color: 0x0d1320, transparent: true, opacity: 0.22 }),
+      new LineBasicMaterial({ color: DARK, transparent: true, opacity: 0.22 }),
     );
-    this.model.add(this.surface, this.lines, this.edges, this.glyphs.group);
+    const curves = [this.lines, this.descending, this.ascending].map(({ group }) => group);
+    this.model.add(this.surface, ...curves, this.edges, this.glyphs.group, this.marker.group);
     this.model.visible = false;
     this.scene.add(this.model, this.camera, new AmbientLight(0xffffff, 2.3));
     // The light comes from beside the eye: shading shows the shape without hiding the colours.
@@ -129,8 +139,11 @@ export class Viewer {
     this.model.visible = false;
     this.critical = null;
     this.glyphs.clear();
-    this.setLines(new Float32Array(0));
-    this.draw();
+    this.marker.clear();
+    this.surface.geometry.deleteAttribute('color');
+    const none = new Float32Array(0);
+    this.setComplex(none, none);
+    this.setLines(none);
   }
 
   /** The colour is looked up for every pixel, not mixed between the vertices' colours. */
@@ -138,7 +151,7 @@ export class Viewer {
     const uv = new Float32Array(2 * shades.length);
     for (let i = 0; i < shades.length; i++) {
       // From the middle of the first texel to the middle of the last.
-      uv[2 * i] = (0.5 + 255 * shades[i]!) / 256;
+      uv[2 * i] = (0.5 + (SAMPLES - 1) * shades[i]!) / SAMPLES;
       uv[2 * i + 1] = 0.5;
     }
     this.surface.geometry.setAttribute('uv', new BufferAttribute(uv, 2));
@@ -146,18 +159,38 @@ export class Viewer {
     this.draw();
   }
 
-  setColormap(bytes: Uint8Array): void {
+  /** `banded`: colours with steps between them, which must not be blurred. */
+  setColormap(bytes: Uint8Array, banded: boolean): void {
     (this.texture.image.data as Uint8Array).set(bytes);
+    this.texture.magFilter = this.texture.minFilter = banded ? NearestFilter : LinearFilter;
     this.texture.needsUpdate = true;
     this.draw();
   }
 
   setLines(segments: Float32Array): void {
-    this.lines.geometry.dispose();
-    this.lines.geometry = new LineSegmentsGeometry();
-    if (segments.length > 0) this.lines.geometry.setPositions(segments);
-    this.lines.userData['empty'] = segments.length === 0;
+    this.lines.set(segments);
+    this.draw();
+  }
+
+  setComplex(descending: Float32Array, ascending: Float32Array): void {
+    this.descending.set(descending);
+    this.ascending.set(ascending);
+    this.draw();
+  }
+
+  /** Red, green, blue of each vertex, mixed over the triangles in which basins meet. */
+  setBasins(colours: Float32Array): void {
+    this.surface.geometry.setAttribute('color', new BufferAttribute(colours, 3));
     this.applyLayers();
+  }
+
+  /** `path`: lines between the two, where they are known. */
+  setLit(pair: Lit | null, path: Float32Array = new Float32Array(0)): void {
+    if (pair && this.mesh && this.model.visible) {
+      const normals = this.surface.geometry.getAttribute('normal').array as Float32Array;
+      this.marker.set(pair, this.mesh, normals, path);
+    } else this.marker.clear();
+    this.draw();
   }
 
   setCritical(vertices: Uint32Array, kinds: Int8Array): void {
@@ -213,8 +246,13 @@ export class Viewer {
   }
 
   private applyLayers(criticalChanged = false): void {
-    const { glyphs, levels, edges } = this.layers;
-    this.lines.visible = levels && !this.lines.userData['empty'];
+    const { glyphs, levels, edges, complex, basins } = this.layers;
+    this.lines.show(levels);
+    this.descending.show(complex);
+    this.ascending.show(complex);
+    // Until the colours have come, values are shown.
+    const byBasin = basins && this.surface.geometry.hasAttribute('color');
+    this.surface.material = byBasin ? this.basinMaterial : this.plainMaterial;
     this.edges.visible = edges;
     // Edges of a large mesh are only built when somebody wants to see them.
     if (edges && this.mesh && !this.edges.geometry.hasAttribute('position')) {

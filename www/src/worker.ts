@@ -17,9 +17,10 @@ let session: Session | null = null;
 function post(message: Reply): void {
   const transfer: Transferable[] = [];
   if (message.kind === 'part') {
-    const holders: object[] = message.part.kind === 'mesh' ? [message.part.mesh] : [message.part];
-    for (const holder of holders) {
-      for (const value of Object.values(holder))
+    // Arrays of the part itself, and those of the one thing in it.
+    for (const holder of [message.part, ...Object.values(message.part)]) {
+      if (typeof holder !== 'object' || holder === null || ArrayBuffer.isView(holder)) continue;
+      for (const value of Object.values(holder as object))
         if (ArrayBuffer.isView(value)) transfer.push(value.buffer as ArrayBuffer);
     }
   }
@@ -70,9 +71,15 @@ async function addField({ file, settings }: Extract<Request, { kind: 'addField' 
   update(session, { ...settings, field: key });
 }
 
+/** Where one side fails, the other goes back to the settings that both have in common. */
 function update(open: Session, settings: Settings): void {
   open.updateBefore(settings, send);
-  open.updateAfter(settings, send);
+  try {
+    open.updateAfter(settings, send);
+  } catch (error) {
+    if (open.settings) open.updateBefore(open.settings, send);
+    throw error;
+  }
 }
 
 async function bytesOf(file: File): Promise<Uint8Array> {

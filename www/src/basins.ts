@@ -1,0 +1,54 @@
+/** Colours for basins, so that neighbours differ and a basin has the same colour on both sides of the page. */
+
+/** How many colours there are; colormap.ts has them. */
+export const BASIN_COLOURS = 12;
+/** Of a vertex in no triangle. */
+const NOWHERE = 0xffffffff;
+export const NO_COLOUR = 255;
+
+export interface BasinColours {
+  /** For each vertex the number of its colour. */
+  colours: Uint8Array<ArrayBuffer>;
+  /** The colour of each basin, by its extremum. */
+  byExtremum: Map<number, number>;
+}
+
+/**
+ * Greedily, the basins with most neighbours first. Each takes the colour that it has in `preferred`, where no neighbour has it,
+ * else the rarest free one. More neighbours than colours is possible on a mesh with handles: then one colour repeats.
+ */
+export function colourBasins(
+  labels: Uint32Array,
+  triangles: Uint32Array,
+  preferred: ReadonlyMap<number, number> = new Map(),
+): BasinColours {
+  const neighbours = new Map<number, Set<number>>();
+  for (const label of labels) if (label !== NOWHERE && !neighbours.has(label)) neighbours.set(label, new Set());
+  const join = (a: number, b: number): void => {
+    if (a === b) return;
+    neighbours.get(a)?.add(b);
+    neighbours.get(b)?.add(a);
+  };
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [labels[triangles[t]!]!, labels[triangles[t + 1]!]!, labels[triangles[t + 2]!]!];
+    join(a, b);
+    join(b, c);
+    join(c, a);
+  }
+  const byExtremum = new Map<number, number>();
+  const uses = new Array<number>(BASIN_COLOURS).fill(0);
+  const order = [...neighbours].sort(([a, of], [b, other]) => other.size - of.size || a - b);
+  for (const [extremum, around] of order) {
+    const taken = new Set([...around].map((other) => byExtremum.get(other)));
+    const wish = preferred.get(extremum);
+    let colour = wish !== undefined && !taken.has(wish) ? wish : -1;
+    if (colour < 0) {
+      const free = uses.map((_, k) => k).filter((k) => !taken.has(k));
+      const choice = free.length > 0 ? free : uses.map((_, k) => k);
+      colour = choice.reduce((best, k) => (uses[k]! < uses[best]! ? k : best));
+    }
+    byExtremum.set(extremum, colour);
+    uses[colour]! += 1;
+  }
+  return { colours: Uint8Array.from(labels, (label) => byExtremum.get(label) ?? NO_COLOUR), byExtremum };
+}

@@ -1,0 +1,37 @@
+/** A pair of critical points that is pointed at: both large, with a bright rim, and a line between them. */
+import { Group } from 'three';
+import { CurveLayer } from './curves';
+import { GlyphLayer, SADDLE } from './glyphs';
+import type { DisplayMesh } from './protocol';
+import type { Lit } from './reading/reading';
+
+const BRIGHT = 0xffd21f;
+const RADIUS = 0.03;
+
+export class Marker {
+  readonly group = new Group();
+  private readonly glyphs = new GlyphLayer({ rim: BRIGHT, late: true });
+  /** What lies behind the surface is still seen, faintly. */
+  private readonly ghosts = new GlyphLayer({ rim: BRIGHT, ghost: true });
+  private readonly path = new CurveLayer({ colour: BRIGHT, width: 4, casing: 0x10151f });
+  private readonly ghostPath = new CurveLayer({ colour: BRIGHT, width: 2, ghost: true });
+
+  constructor() {
+    this.group.add(this.ghosts.group, this.glyphs.group, this.path.group, this.ghostPath.group);
+    this.ghosts.group.renderOrder = 1;
+    this.glyphs.group.renderOrder = 2;
+  }
+
+  clear(): void {
+    this.glyphs.clear();
+    this.ghosts.clear();
+    for (const line of [this.path, this.ghostPath]) line.set(new Float32Array(0));
+  }
+
+  set({ extremum, saddle, kind }: Lit, mesh: DisplayMesh, normals: Float32Array, path: Float32Array): void {
+    const vertices = Uint32Array.of(extremum, saddle);
+    const kinds = Int8Array.of(kind, SADDLE);
+    for (const layer of [this.glyphs, this.ghosts]) layer.set(vertices, kinds, mesh.positions, normals, RADIUS);
+    for (const line of [this.path, this.ghostPath]) line.set(path);
+  }
+}

@@ -1,0 +1,176 @@
+/** The panel "Reading the field": both plots, what they say in words, and what the user does to them. */
+import { element, short, whole } from '../dom';
+import type { Hierarchy, Overrides, Pairs, Side } from '../protocol';
+import { Curve } from './curve';
+import { Diagram, MOST } from './diagram';
+import { Selection } from './selection';
+import { countsAt } from './steps';
+
+/** A pair of critical points, to be shown on the surface. */
+export interface Lit {
+  extremum: number;
+  saddle: number;
+  /** −1 for a minimum, 1 for a maximum. */
+  kind: number;
+}
+
+export interface ReadingEvents {
+  delta(value: number): void;
+  /** How far δ is of interest. */
+  deltaEnd(value: number): void;
+  threshold(value: number): void;
+  /** Some pair was decided about, or all decisions were taken back. */
+  overrides(overrides: Overrides): void;
+  lit(pair: Lit | null): void;
+}
+
+export class Reading {
+  private readonly selection = new Selection();
+  private readonly curve: Curve;
+  private readonly diagram: Diagram;
+  private readonly hierarchies: Partial<Record<Side, Hierarchy>> = {};
+  private delta = 0;
+  private pointed: number | null = null;
+
+  private readonly curveText = element('#curve-values', HTMLElement);
+  private readonly pairText = element('#pair-values', HTMLElement);
+  private readonly reset = element('#reset-pairs', HTMLButtonElement);
+
+  constructor(private readonly events: ReadingEvents) {
+    this.curve = new Curve(element('#curve', HTMLElement), {
+      delta: (value) => events.delta(value),
+      end: (value) => events.deltaEnd(value),
+      hover: (value) => this.describeCounts(value ?? this.delta),
+    });
+    this.diagram = new Diagram(element('#diagram', HTMLElement), this.selection, {
+      threshold: (value) => events.threshold(value),
+      point: (pair) => this.point(pair),
+      toggle: (pair) => {
+        this.selection.toggle(pair);
+        this.decided();
+      },
+    });
+    this.reset.addEventListener('click', () => {
+      this.selection.reset();
+      this.decided();
+    });
+  }
+
+  get overrides(): Overrides {
+    return this.selection.overrides;
+  }
+
+  setHierarchy(side: Side, hierarchy: Hierarchy | null): void {
+    if (hierarchy) this.hierarchies[side] = hierarchy;
+    else delete this.hierarchies[side];
+    this.curve.setSteps(side, hierarchy);
+    this.describeCounts(this.delta);
+  }
+
+  setPairs(pairs: Pairs, range: [number, number]): void {
+    this.selection.setPairs(pairs, range);
+    this.diagram.update(true);
+    this.describePair();
+  }
+
+  /** What the controls say; nothing is reported back. */
+  setState(delta: number, threshold: number, overrides: Overrides): void {
+    this.delta = delta;
+    this.curve.setDelta(delta);
+    this.describeCounts(delta);
+    this.selection.threshold = threshold;
+    this.selection.overrides = overrides;
+    this.redraw();
+  }
+
+  setDelta(delta: number): void {
+    this.delta = delta;
+    this.curve.setDelta(delta);
+    this.describeCounts(delta);
+  }
+
+  setThreshold(threshold: number): void {
+    this.selection.threshold = threshold;
+    this.redraw();
+  }
+
+  private decided(): void {
+    this.redraw();
+    this.events.overrides(this.selection.overrides);
+  }
+
+  /** Where the line is cut short for want of room, the pointer shows it whole. */
+  private sayPair(text: string): void {
+    this.pairText.textContent = this.pairText.title = text;
+  }
+
+  private redraw(): void {
+    this.diagram.update(false);
+    this.describePair();
+  }
+
+  private point(pair: number | null): void {
+    this.pointed = pair;
+    this.describePair();
+    if (pair === null) return this.events.lit(null);
+    const { extrema, saddles, kinds } = this.selection.pairs!;
+    this.events.lit({ extremum: extrema[pair]!, saddle: saddles[pair]!, kind: kinds[pair]! });
+  }
+
+  private describeCounts(delta: number): void {
+    const { before, after } = this.hierarchies;
+    if (!before) {
+      this.curveText.textContent = '–';
+      return;
+    }
+    const { minima, maxima, saddles } = countsAt(before, delta);
+    const left = after ? countsAt(after, delta) : null;
+    const change = (from: number, to: number | undefined): string =>
+      to === undefined ? whole(from) : `${whole(from)} → ${whole(to)}`;
+    const item = (kind: string, what: string): HTMLElement => {
+      const span = document.createElement('span');
+      span.className = `of-${kind}`;
+      span.textContent = what;
+      return span;
+    };
+    this.curveText.replaceChildren(
+      `δ = ${short(delta)}: `,
+      item('minimum', `${change(minima, left?.minima)} minima`),
+      ', ',
+      item('maximum', `${change(maxima, left?.maxima)} maxima`),
+      ', ',
+      item('saddle', `${change(saddles, left?.saddles)} saddles`),
+    );
+  }
+
+  private describePair(): void {
+    const { selection } = this;
+    const { overrides } = selection;
+    this.reset.disabled = overrides.kept.length + overrides.dropped.length === 0;
+    const { pairs } = selection;
+    if (!pairs) return;
+    if (this.pointed === null) {
+      const { minima, maxima, dropped } = selection.counts();
+      const hidden = pairs.extrema.length - MOST;
+      const more = hidden > 0 ? `; the ${whole(hidden)} least persistent pairs are not drawn` : '';
+      this.sayPair(
+        `Keeps ${plural(minima, 'minimum', 'minima')} and ${plural(maxima, 'maximum', 'maxima')}, drops ${plural(dropped, 'pair', 'pairs')}${more}`,
+      );
+      return;
+    }
+    const pair = this.pointed;
+    const isMinimum = pairs.kinds[pair]! < 0;
+    const [first, second] = isMinimum ? [pairs.birth, pairs.death] : [pairs.death, pairs.birth];
+    const share = selection.width > 0 ? pairs.persistence[pair]! / selection.width : 0;
+    this.sayPair(
+      `${isMinimum ? 'Minimum' : 'Maximum'} ${pairs.extrema[pair]} (${short(first[pair]!)}), ` +
+        `saddle ${pairs.saddles[pair]} (${short(second[pair]!)}): ` +
+        `${short(100 * share)} %, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
+        (selection.isDecided(pair) ? ' by you' : ''),
+    );
+  }
+}
+
+function plural(count: number, one: string, many: string): string {
+  return `${whole(count)} ${count === 1 ? one : many}`;
+}
