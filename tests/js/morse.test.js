@@ -132,7 +132,7 @@ describe('the Morse complex', () => {
         const merged = mesh.morseComplex(values, { persistence, paths: 'merged' });
         for (const entry of ['saddles', 'extrema', 'kinds']) expect(merged[entry]).toEqual(whole[entry]);
         const drawn = edgesOf(merged);
-        for (const edge of edgesOf(whole)) expect(drawn).toContain(edge);
+        expect(new Set(drawn)).toEqual(new Set(edgesOf(whole)));
         const passed = { '-1': new Set(), 1: new Set() };
         linesOf(merged).forEach((line, k) => {
           const before = passed[merged.kinds[k]];
@@ -140,7 +140,6 @@ describe('the Morse complex', () => {
           line.forEach((v) => before.add(v));
         });
         if (persistence > 0) continue;
-        expect(new Set(drawn)).toEqual(new Set(edgesOf(whole)));
         // Only the first edge of a line can be there already, where one that comes from beyond goes through its saddle.
         expect(drawn.length - new Set(drawn).size).toBeLessThanOrEqual(merged.saddles.length);
       }
@@ -153,7 +152,7 @@ describe('the Morse complex', () => {
     // From 5 the way to the cancelled minimum 14 leads over 10 and back: nothing of that is drawn, and the line from 11 that comes
     // to 10 goes on.
     expect(linesOf(mesh.morseComplex(values, { persistence: 0.2 }))).toContainEqual([11, 10, 5, 4, 8]);
-    expect(linesOf(mesh.morseComplex(values, { persistence: 0.2, paths: 'merged' }))).toContainEqual([11, 10, 5]);
+    expect(linesOf(mesh.morseComplex(values, { persistence: 0.2, paths: 'merged' }))).toContainEqual([11, 10, 5, 4]);
   });
 });
 
