@@ -9,14 +9,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for relative in [0.05, 0.1, 0.5] {
         let threshold = relative * value_range(file.mesh.connectivity(), field)?.length();
         let alive = (0..hierarchy.nodes.len() as u32).filter(|&node| hierarchy.is_alive(node, threshold)).count();
-        let keep = Keep::Above { threshold: relative, scale: ThresholdScale::Relative };
+        let keep = Keep::Above(Threshold::Relative(relative));
         let counts = critical_points(&file.mesh, &simplify(&file.mesh, field, keep)?, &DeltaOptions::default())?.counts;
         assert_eq!(alive as u32, counts.minima + counts.maxima + counts.saddles);
-        let lines = morse_complex(&file.mesh, field, relative, PathStyle::Whole)?;
+        let lines = morse_complex(&file.mesh, field, Threshold::Relative(relative), PathStyle::Whole)?;
         let is_left = |v: u32| hierarchy.nodes.iter().any(|node| node.vertex == v && node.cancelled_at > threshold);
         assert!(lines.saddles.iter().chain(&lines.extrema).all(|&v| is_left(v)));
     }
     // Far above the noise: the textbook's torus, a minimum, a maximum and two saddles with four lines each.
-    assert_eq!(morse_complex(&file.mesh, field, 0.5, PathStyle::Whole)?.saddles.len(), 8);
+    assert_eq!(morse_complex(&file.mesh, field, Threshold::Relative(0.5), PathStyle::Whole)?.saddles.len(), 8);
     Ok(())
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Array, Uint32Array};
-use morse_smooth::field::{self, CriticalKind, Keep, PathStyle, ThresholdScale};
+use morse_smooth::field::{self, CriticalKind, Keep, PathStyle, Threshold};
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
@@ -218,14 +218,10 @@ fn persistence_and_simplification_are_those_of_rust() {
     assert_eq!(floats(&curve, "threshold"), expected.threshold);
     assert_eq!((ids(&curve, "minima"), ids(&curve, "maxima")), (expected.minima, expected.maxima));
 
-    let (relative, absolute) = (ThresholdScale::Relative, ThresholdScale::Absolute);
     let kept = [diagram.essential_minima[0], diagram.essential_maxima[0], pairs[0].extremum];
     for (text, keep) in [
-        ("{ threshold: 0.2 }".to_owned(), Keep::Above { threshold: 0.2, scale: relative }),
-        (
-            "{ threshold: 0.2, thresholdIs: 'absolute', keep: null }".to_owned(),
-            Keep::Above { threshold: 0.2, scale: absolute },
-        ),
+        ("{ threshold: 0.2 }".to_owned(), Keep::Above(Threshold::Relative(0.2))),
+        ("{ threshold: 0.2, thresholdIs: 'absolute', keep: null }".to_owned(), Keep::Above(Threshold::Absolute(0.2))),
         (format!("{{ keep: new Uint32Array({kept:?}) }}"), Keep::Extrema(&kept)),
     ] {
         let simple = given.simplify(&array(&f), &js(&text)).ok().expect("a field").to_vec();
@@ -266,7 +262,7 @@ fn the_morse_complex_is_that_of_rust() {
     for (text, persistence, style) in
         [("undefined", 0.0, PathStyle::Whole), ("{ persistence: 0.2, paths: 'merged' }", 0.2, PathStyle::Merged)]
     {
-        let expected = field::morse_complex(&mesh, &f, persistence, style).expect("a field");
+        let expected = field::morse_complex(&mesh, &f, Threshold::Relative(persistence), style).expect("a field");
         let found: JsValue = given.morse_complex(&array(&f), &js(text)).ok().expect("a field").into();
         let points: Vec<f64> = expected.vertices.iter().flat_map(|&v| mesh.position(v)).collect();
         assert_eq!(floats(&found, "points"), points);
@@ -284,7 +280,7 @@ fn the_morse_complex_is_that_of_rust() {
     assert_eq!(ids(&found, "into"), nodes.iter().map(|node| node.into).collect::<Vec<_>>());
     assert_eq!(ids(&found, "arcs"), hierarchy.arcs.as_flattened());
     for (text, persistence) in [("undefined", 0.0), ("{ persistence: 0.2 }", 0.2)] {
-        let expected = field::basins(&mesh, &f, persistence).expect("a field");
+        let expected = field::basins(&mesh, &f, Threshold::Relative(persistence)).expect("a field");
         let found: JsValue = given.basins(&array(&f), &js(text)).ok().expect("a field").into();
         assert_eq!((ids(&found, "descending"), ids(&found, "ascending")), (expected.descending, expected.ascending));
     }

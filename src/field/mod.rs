@@ -23,6 +23,6 @@ pub use critical::{
 pub use hierarchy::{DeltaCurve, DeltaHierarchy, HierarchyPoint, delta_hierarchy};
 pub use level::{Bands, LevelSets, bands, evenly_spaced_levels, level_sets, saddle_levels};
 pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basins, morse_complex, morse_hierarchy};
-pub use order::{ValueRange, VertexOrder, value_range};
+pub use order::{Threshold, ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
-pub use simplify::{Keep, ThresholdScale, simplify};
+pub use simplify::{Keep, simplify};

@@ -1,7 +1,7 @@
 //! The total order of the vertices by (value, id): simulation of simplicity \[Edelsbrunner90\].
 
-use crate::error::FieldError;
-use crate::mesh::{Connectivity, LinkKind};
+use crate::error::{Error, FieldError, OptionError};
+use crate::mesh::{Connectivity, LinkKind, TriMesh};
 
 /// One finite value per vertex, ordered by (value, id), so that no two vertices are ever equal.
 #[derive(Debug, Clone, Copy)]
@@ -84,4 +84,35 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), v| {
         (if v < min { v } else { min }, if v > max { v } else { max })
     })
+}
+
+/// A difference of values that divides what matters from what does not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Threshold {
+    /// A fraction of the range of the field.
+    Relative(f64),
+    /// In the units of the values.
+    Absolute(f64),
+}
+
+impl Default for Threshold {
+    fn default() -> Self {
+        Self::Relative(0.0)
+    }
+}
+
+impl Threshold {
+    /// In the units of the values. `option` is its name in errors.
+    pub(super) fn absolute(self, mesh: &TriMesh, values: &[f64], option: &str) -> Result<f64, Error> {
+        let (Self::Relative(threshold) | Self::Absolute(threshold)) = self;
+        if !(threshold.is_finite() && threshold >= 0.0) {
+            let expected = "a finite number that is not negative".to_owned();
+            return Err(OptionError::InvalidOption { option: option.to_owned(), expected }.into());
+        }
+        Ok(match self {
+            Self::Absolute(_) => threshold,
+            // A product that overflows is beyond all differences.
+            Self::Relative(_) => (threshold * value_range(mesh.connectivity(), values)?.length()).min(f64::MAX),
+        })
+    }
 }

@@ -88,3 +88,26 @@ pub(super) fn steepest_of(mesh: &TriMesh, order: VertexOrder<'_>, v: u32, neighb
     }
     best
 }
+
+/// For every entry of a forest, each leading to another one or to itself, where its path ends: for every vertex, the extremum of
+/// steepest paths.
+#[inline(never)]
+pub(super) fn ends(steepest: &[u32]) -> Vec<u32> {
+    const UNKNOWN: u32 = u32::MAX;
+    let mut ends = vec![UNKNOWN; steepest.len()];
+    let mut path = Vec::new();
+    for start in 0..steepest.len() as u32 {
+        let mut at = start;
+        while ends[at as usize] == UNKNOWN && steepest[at as usize] != at {
+            path.push(at);
+            at = steepest[at as usize];
+        }
+        let end = if ends[at as usize] == UNKNOWN { at } else { ends[at as usize] };
+        ends[at as usize] = end;
+        for &v in &path {
+            ends[v as usize] = end;
+        }
+        path.clear();
+    }
+    ends
+}

@@ -91,7 +91,8 @@ export function toLevels(value, vertices) {
   if (!isRecord(value)) return toNumbers(value, 'levels');
   const settings = { ...value };
   const { saddles } = settings;
-  if (typeof saddles === 'object' && saddles !== null) settings.saddles = toVertices(saddles, 'saddles', vertices);
+  const areGiven = saddles !== undefined && saddles !== null && saddles !== true;
+  if (areGiven) settings.saddles = toVertices(saddles, 'saddles', vertices);
   return settings;
 }
 

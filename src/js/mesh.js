@@ -89,7 +89,7 @@ export class TriMesh {
   simplify(values, options) {
     const settings = toOptions(options);
     const keep = settings?.keep;
-    if (typeof keep === 'object' && keep !== null) settings.keep = toVertices(keep, 'keep', this.vertexCount);
+    if (keep !== undefined && keep !== null) settings.keep = toVertices(keep, 'keep', this.vertexCount);
     return this.#analyse('simplify', values, settings);
   }
 

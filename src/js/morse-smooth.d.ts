@@ -236,10 +236,12 @@ export class TriMesh {
    * A field near the given one that has no other extrema than those of persistence above the threshold (`thresholdIs`:
    * `"relative"` to the range, the default, or `"absolute"`), or than those in `keep`. With a threshold no value changes by more
    * than it. Regions that become flat are tilted by the smallest steps that numbers have, so that the extrema by
-   * (value, vertex number) are exactly the wanted ones; this is checked before the result is returned. (Where a pair is exactly as
-   * persistent as the threshold, these steps may come on top of it.)
+   * (value, vertex number) are exactly the wanted ones; this is checked before the result is returned. (Where a pair is as
+   * persistent as the threshold, these steps may come on top of it, at most as many as the flat region has vertices.)
    *
-   * @throws `NotAnExtremum` (`vertex`) for a vertex in `keep`; `Unconstrained` (`component`) where `keep` has no minimum or no
+   * What is kept is told by the pairs of the given field; in the result, these extrema may be less persistent.
+   *
+   * @throws `NotAnExtremum` (`vertex`), `IndexOutOfBounds` (`index`) for a vertex in `keep`; `Unconstrained` (`component`) where `keep` has no minimum or no
    *   maximum in a component; `UnavoidableExtremum` (`vertex`) where the mesh hangs together in a single vertex and has no room for
    *   such a field
    */
@@ -256,9 +258,9 @@ export class TriMesh {
 
   /**
    * For every vertex the minimum and the maximum at which its steepest path ends, where pairs of persistence up to
-   * `persistence` (relative to the range) are cancelled; by default none.
+   * `persistence` are cancelled, as in {@link TriMesh.morseComplex}; by default none.
    */
-  basins(values: Numbers, options?: { persistence?: number }): Basins;
+  basins(values: Numbers, options?: Omit<MorseComplexOptions, 'paths'>): Basins;
 
   /** How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. */
   smoothness(values: Numbers, options?: { weights?: LaplacianWeights }): Smoothness;
@@ -431,8 +433,10 @@ export type SimplifyOptions =
 
 /** See {@link TriMesh.morseComplex}. */
 export interface MorseComplexOptions {
-  /** Pairs of persistence up to this, relative to the range, are cancelled first. Default 0: none, not even tied ones. */
+  /** Pairs of persistence up to this are cancelled first. Default 0: none, not even tied ones. */
   persistence?: number;
+  /** `"relative"` (default): a fraction of the range. `"absolute"`: in units of the field. */
+  persistenceIs?: 'relative' | 'absolute';
   /** `"whole"` (default): every line runs to its extremum. `"merged"`: a line ends where it meets one that is there already. */
   paths?: 'whole' | 'merged';
 }

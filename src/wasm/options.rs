@@ -5,7 +5,7 @@ use wasm_bindgen::{JsCast, JsValue};
 
 use super::error::set;
 use crate::error::OptionError;
-use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, Keep, LinkReading, PathStyle, ThresholdScale};
+use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, Keep, LinkReading, PathStyle, Threshold};
 use crate::operators::{LaplacianWeights, MassScale};
 use crate::smooth::{
     Metric, Operator, Precision, SmootherOptions, SolverChoice, TikhonovOptions, epsilon_for_wavelength,
@@ -40,7 +40,8 @@ pub(super) struct Options {
     threshold_is: Option<String>,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     pub(super) keep: JsValue,
-    pub(super) persistence: Option<f64>,
+    persistence: Option<f64>,
+    persistence_is: Option<String>,
     paths: Option<String>,
     delta: Option<f64>,
     delta_is: Option<String>,
@@ -135,6 +136,12 @@ fn choose_supported<T: Copy>(
     choose(option, name, choices)?.ok_or_else(|| unsupported(option, name.map_or("", String::as_str)))
 }
 
+/// A threshold with what it is measured in.
+fn threshold_of(option: &str, scale: Option<&String>, threshold: f64) -> Result<Threshold, OptionError> {
+    let relative = choose(option, scale, &[("relative", true), ("absolute", false)])?;
+    Ok(if relative { Threshold::Relative(threshold) } else { Threshold::Absolute(threshold) })
+}
+
 impl Options {
     pub(super) fn delta(&self) -> Result<DeltaOptions, OptionError> {
         let scales = [("relative", DeltaScale::Relative), ("absolute", DeltaScale::Absolute)];
@@ -150,11 +157,10 @@ impl Options {
 
     /// What `simplify` is to leave: `keep`, or what is above the threshold.
     pub(super) fn extrema<'a>(&self, keep: Option<&'a [u32]>) -> Result<Keep<'a>, OptionError> {
-        let scales = [("relative", ThresholdScale::Relative), ("absolute", ThresholdScale::Absolute)];
-        let scale = choose("thresholdIs", self.threshold_is.as_ref(), &scales)?;
         let Some(vertices) = keep else {
             let missing = || invalid("threshold", "a number that is not negative, unless `keep` says what to keep");
-            return Ok(Keep::Above { threshold: self.threshold.ok_or_else(missing)?, scale });
+            let threshold = self.threshold.ok_or_else(missing)?;
+            return Ok(Keep::Above(threshold_of("thresholdIs", self.threshold_is.as_ref(), threshold)?));
         };
         for (option, is_there) in
             [("threshold", self.threshold.is_some()), ("thresholdIs", self.threshold_is.is_some())]
@@ -164,6 +170,11 @@ impl Options {
             }
         }
         Ok(Keep::Extrema(vertices))
+    }
+
+    /// Up to which persistence pairs are cancelled.
+    pub(super) fn persistence(&self) -> Result<Threshold, OptionError> {
+        threshold_of("persistenceIs", self.persistence_is.as_ref(), self.persistence.unwrap_or_default())
     }
 
     pub(super) fn paths(&self) -> Result<PathStyle, OptionError> {

@@ -69,9 +69,9 @@ impl RawTriMesh {
 
     #[wasm_bindgen(js_name = morseComplex)]
     pub fn morse_complex(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let options = read(options, &[&["persistence", "paths"]])?;
+        let options = read(options, &[&["persistence", "persistenceIs", "paths"]])?;
         let style = options.paths()?;
-        let persistence = options.persistence.unwrap_or_default();
+        let persistence = options.persistence()?;
         let complex = field::morse_complex(self.mesh(), &floats(values)?, persistence, style)?;
         let length = 3 * complex.vertices.len();
         let mut points = Vec::new();
@@ -106,7 +106,7 @@ impl RawTriMesh {
     }
 
     pub fn basins(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let persistence = read(options, &[&["persistence"]])?.persistence.unwrap_or_default();
+        let persistence = read(options, &[&["persistence", "persistenceIs"]])?.persistence()?;
         let basins = field::basins(self.mesh(), &floats(values)?, persistence)?;
         let result = Object::new();
         set(&result, "descending", &Uint32Array::from(basins.descending.as_slice()));

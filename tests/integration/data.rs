@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, ThresholdScale, critical_points, delta_hierarchy,
+    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, Threshold, critical_points, delta_hierarchy,
     largest_edge_difference, persistence, simplify, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
@@ -139,7 +139,7 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
         ];
         let expected = [0, 1].map(|side| pairs[side].as_u64().expect("a count"));
         check.equal(&format!("{context} pairs above {threshold}"), &found, &expected);
-        let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+        let keep = Keep::Above(Threshold::Absolute(threshold));
         let simple = simplify(mesh, values, keep).expect("a surface");
         let counts = critical_points(mesh, &simple, &DeltaOptions::default()).expect("a field").counts;
         let found = [u64::from(counts.minima), u64::from(counts.maxima)];

@@ -3,13 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use morse_smooth::field::{
-    CriticalKind, DeltaOptions, Keep, MorseComplex, PathStyle, ThresholdScale, basins, critical_points, morse_complex,
+    CriticalKind, DeltaOptions, Keep, MorseComplex, PathStyle, Threshold, basins, critical_points, morse_complex,
     morse_hierarchy, persistence, simplify, value_range,
 };
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
-use crate::support::{every_kind, islands, link_components, links, noise, random_complex, random_surface, tied};
+use crate::support::{
+    complex as complex_of, every_kind, islands, link_components, links, noise, random_complex, random_surface, tied,
+};
 
 fn is_below(values: &[f64], a: u32, b: u32) -> bool {
     (values[a as usize], a) < (values[b as usize], b)
@@ -42,7 +44,7 @@ fn steepest(mesh: &TriMesh, values: &[f64], v: u32, among: &[u32], down: bool) -
 }
 
 fn check_lines(name: &str, mesh: &TriMesh, values: &[f64]) {
-    let complex = morse_complex(mesh, values, 0.0, PathStyle::Whole).expect("a field");
+    let complex = morse_complex(mesh, values, Threshold::Relative(0.0), PathStyle::Whole).expect("a field");
     let links = links(mesh.vertex_count(), mesh.connectivity().triangles());
     let around: Vec<Vec<u32>> = links.iter().map(|link| link.keys().copied().collect()).collect();
     let mut expected: BTreeMap<(u32, bool), usize> = BTreeMap::new();
@@ -76,7 +78,7 @@ fn check_lines(name: &str, mesh: &TriMesh, values: &[f64]) {
         }
     }
     assert_eq!(found, expected, "{name}: one line for each part of a link");
-    let merged = morse_complex(mesh, values, 0.0, PathStyle::Merged).expect("a field");
+    let merged = morse_complex(mesh, values, Threshold::Relative(0.0), PathStyle::Merged).expect("a field");
     assert_eq!(edges_of(&merged), edges_of(&complex), "{name}: merged");
     let drawn: usize = lines(&merged).iter().map(|line| line.len() - 1).sum();
     assert_eq!((&merged.saddles, &merged.extrema), (&complex.saddles, &complex.extrema), "{name}: merged");
@@ -135,7 +137,7 @@ fn check_hierarchy(name: &str, mesh: &TriMesh, values: &[f64]) {
         }
         if mesh.topology().closed && is_surface(mesh) {
             let counts = if threshold > 0.0 {
-                let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+                let keep = Keep::Above(Threshold::Absolute(threshold));
                 let simple = simplify(mesh, values, keep).expect("a surface");
                 critical_points(mesh, &simple, &DeltaOptions::default()).unwrap().counts
             } else {
@@ -150,13 +152,13 @@ fn check_hierarchy(name: &str, mesh: &TriMesh, values: &[f64]) {
 fn check_arcs(name: &str, mesh: &TriMesh, values: &[f64], relative: f64) {
     let hierarchy = morse_hierarchy(mesh, values).unwrap();
     let threshold = relative * value_range(mesh.connectivity(), values).unwrap().length();
-    let complex = morse_complex(mesh, values, relative, PathStyle::Whole).unwrap();
+    let complex = morse_complex(mesh, values, Threshold::Relative(relative), PathStyle::Whole).unwrap();
     let name_of = |i: u32| hierarchy.nodes[i as usize].vertex;
     let arcs: BTreeSet<(u32, u32, CriticalKind)> =
         hierarchy.arcs_at(threshold).map(|[s, e]| (name_of(s), name_of(e), hierarchy.nodes[e as usize].kind)).collect();
     let of_lines = (0..complex.saddles.len()).map(|k| (complex.saddles[k], complex.extrema[k], complex.kinds[k]));
     assert_eq!(of_lines.collect::<BTreeSet<_>>(), arcs, "{name}: arcs");
-    let labels = basins(mesh, values, relative).unwrap();
+    let labels = basins(mesh, values, Threshold::Relative(relative)).unwrap();
     let passes: BTreeSet<u32> =
         hierarchy.nodes.iter().filter(|node| node.kind == CriticalKind::Saddle).map(|node| node.vertex).collect();
     let connected: BTreeSet<[u32; 2]> = mesh.connectivity().edges().iter().copied().collect();
@@ -171,7 +173,29 @@ fn check_arcs(name: &str, mesh: &TriMesh, values: &[f64], relative: f64) {
             assert!(connected.contains(&[step[0].min(step[1]), step[0].max(step[1])]), "{name}: along edges");
         }
     }
-    let merged = morse_complex(mesh, values, relative, PathStyle::Merged).unwrap();
+    let mut distinct: BTreeMap<u32, BTreeSet<&[u32]>> = BTreeMap::new();
+    for line in lines(&complex) {
+        assert!(line.len() > 1, "{name}: {line:?}");
+        assert!(line.windows(2).all(|step| step[0] != step[1]), "{name}: stands still in {line:?}");
+        assert!(line.windows(3).all(|turn| turn[0] != turn[2]), "{name}: turns back in {line:?}");
+        assert!(distinct.entry(line[0]).or_default().insert(line), "{name}: {line:?} twice");
+    }
+    if mesh.topology().closed && is_surface(mesh) {
+        let mut simple: BTreeMap<u32, usize> = BTreeMap::new();
+        for (i, node) in hierarchy.nodes.iter().enumerate() {
+            if node.kind == CriticalKind::Saddle && hierarchy.is_alive(i as u32, threshold) {
+                *simple.entry(node.vertex).or_default() += 1;
+            }
+        }
+        let lines: BTreeMap<u32, usize> = distinct.iter().map(|(&v, lines)| (v, lines.len())).collect();
+        for (&v, &k) in &simple {
+            let most = 4 * k;
+            assert!((2 * (k + 1)..=most).contains(&lines[&v]), "{name}: {} lines at {v} for {k}", lines[&v]);
+        }
+        assert_eq!(lines.len(), simple.len(), "{name}");
+    }
+    let merged = morse_complex(mesh, values, Threshold::Relative(relative), PathStyle::Merged).unwrap();
+    assert!(lines(&merged).iter().all(|line| line.len() > 1), "{name}: merged");
     assert_eq!((&merged.saddles, &merged.extrema), (&complex.saddles, &complex.extrema), "{name}: merged");
     assert_eq!(edges_of(&merged), edges_of(&complex), "{name}: merged draws the same");
     for (side, labels) in [(CriticalKind::Minimum, &labels.descending), (CriticalKind::Maximum, &labels.ascending)] {
@@ -230,7 +254,7 @@ fn a_torus_has_the_arcs_of_the_textbook() {
     assert_eq!(hierarchy.nodes.len(), 4);
     assert_eq!(hierarchy.arcs, [[2, 0], [2, 0], [2, 1], [2, 1], [3, 0], [3, 0], [3, 1], [3, 1]]);
     assert!(hierarchy.nodes.iter().all(|node| node.cancelled_at == f64::INFINITY));
-    let basins = basins(&torus, &height, 0.0).unwrap();
+    let basins = basins(&torus, &height, Threshold::Relative(0.0)).unwrap();
     assert_eq!(basins.descending, vec![hierarchy.nodes[0].vertex; 2400]);
 }
 
@@ -241,7 +265,7 @@ fn vertices_in_one_place_do_no_harm() {
     for scale in [0.0, 1e-200, 1e70] {
         let positions = grid.positions().iter().map(|x| x * scale).collect();
         let mesh = TriMesh::new(positions, grid.connectivity().triangles().as_flattened().to_vec()).unwrap();
-        let complex = morse_complex(&mesh, &values, 0.3, PathStyle::Whole).unwrap();
+        let complex = morse_complex(&mesh, &values, Threshold::Relative(0.3), PathStyle::Whole).unwrap();
         assert!(!complex.saddles.is_empty());
         check_hierarchy("collapsed", &mesh, &values);
     }
@@ -250,10 +274,42 @@ fn vertices_in_one_place_do_no_harm() {
 #[test]
 fn isolated_vertices_belong_to_no_basin() {
     let mesh = islands();
-    let labels = basins(&mesh, &noise(mesh.vertex_count(), 3), 0.1).unwrap();
+    let labels = basins(&mesh, &noise(mesh.vertex_count(), 3), Threshold::Relative(0.1)).unwrap();
     for v in mesh.connectivity().isolated_vertices() {
         assert_eq!((labels.descending[v as usize], labels.ascending[v as usize]), (u32::MAX, u32::MAX));
     }
+}
+
+#[test]
+fn long_ways_that_turn_again_and_again_and_hubs_take_linear_time() {
+    // An oscillation that grows outwards, to the left and to the right by turns: every extremum that is cancelled lies at the
+    // far end of all that were cancelled before. With one path turned round after the other, this would take minutes.
+    let columns = 300_000_u32;
+    let strip = shapes::grid(columns, 2).unwrap();
+    let chirp: Vec<f64> = (0..strip.vertex_count())
+        .map(|v| {
+            let x = (strip.position(v as u32)[0] * f64::from(columns - 1)).round() as i64 - i64::from(columns / 2);
+            let height = x.abs() as f64 + if x < 0 { 0.5 } else { 0.0 };
+            if x % 2 == 0 { -height } else { height }
+        })
+        .collect();
+    let complex = morse_complex(&strip, &chirp, Threshold::Relative(0.9), PathStyle::Merged).unwrap();
+    assert!(complex.vertices.len() < 4 * strip.vertex_count());
+    // A vertex with very many neighbours, low and high by turns.
+    let rim = 100_000_u32;
+    let triangles: Vec<[u32; 3]> =
+        (0..rim).flat_map(|i| [[0, 2 + i, 2 + (i + 1) % rim], [1, 2 + (i + 1) % rim, 2 + i]]).collect();
+    let values: Vec<f64> = (0..rim + 2)
+        .map(|v| match v {
+            0 => 0.0,
+            1 => 9.0 * f64::from(rim),
+            _ if v % 2 == 0 => -f64::from(v),
+            _ => f64::from(v),
+        })
+        .collect();
+    let hub = complex_of(rim + 2, &triangles);
+    let lines = morse_complex(&hub, &values, Threshold::default(), PathStyle::Whole).unwrap();
+    assert_eq!(lines.saddles.len(), rim as usize);
 }
 
 #[test]
@@ -261,14 +317,17 @@ fn bad_input_is_refused() {
     let torus = shapes::torus(8, 6, 0.0).unwrap();
     let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0]).collect();
     for persistence in [-0.1, f64::NAN, f64::INFINITY] {
-        let error = morse_complex(&torus, &height, persistence, PathStyle::Whole).unwrap_err();
+        let error = morse_complex(&torus, &height, Threshold::Relative(persistence), PathStyle::Whole).unwrap_err();
         assert_eq!(error.code(), "InvalidOption");
-        assert_eq!(basins(&torus, &height, persistence).unwrap_err().code(), "InvalidOption");
+        assert_eq!(basins(&torus, &height, Threshold::Relative(persistence)).unwrap_err().code(), "InvalidOption");
     }
-    assert_eq!(morse_complex(&torus, &height[1..], 0.0, PathStyle::Whole).unwrap_err().code(), "LengthMismatch");
+    assert_eq!(
+        morse_complex(&torus, &height[1..], Threshold::Relative(0.0), PathStyle::Whole).unwrap_err().code(),
+        "LengthMismatch"
+    );
     assert_eq!(morse_hierarchy(&torus, &height[1..]).unwrap_err().code(), "LengthMismatch");
     let mut holes = height;
     holes[5] = f64::NAN;
     assert_eq!(morse_hierarchy(&torus, &holes).unwrap_err().code(), "NonFiniteValue");
-    assert_eq!(basins(&torus, &holes, 0.0).unwrap_err().code(), "NonFiniteValue");
+    assert_eq!(basins(&torus, &holes, Threshold::Relative(0.0)).unwrap_err().code(), "NonFiniteValue");
 }

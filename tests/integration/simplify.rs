@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use morse_smooth::field::{
-    CriticalKind, DeltaOptions, Keep, ThresholdScale, critical_points, persistence, simplify, value_range,
+    CriticalKind, DeltaOptions, Keep, Threshold, critical_points, persistence, simplify, value_range,
 };
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
@@ -34,7 +34,7 @@ fn is_surface(mesh: &TriMesh) -> bool {
 }
 
 fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
-    let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+    let keep = Keep::Above(Threshold::Absolute(threshold));
     let wanted = above(mesh, values, threshold);
     let simple = match simplify(mesh, values, keep) {
         Ok(simple) => simple,
@@ -46,9 +46,12 @@ fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
     };
     assert_eq!(extrema(mesh, &simple), wanted, "{name}, threshold {threshold}");
     let change = largest_change(values, &simple);
-    // What is exactly as persistent as the threshold leaves no room for the tilt.
-    let exact = persistence(mesh, values).unwrap().pairs.iter().any(|p| p.persistence == threshold);
-    let tilt = if exact { values.len() as f64 * f64::EPSILON * (2.0 + threshold) } else { 0.0 };
+    // What is as persistent as the threshold, or nearly so, leaves no room for the tilt: a step for each vertex at most.
+    let step = values.iter().fold(0.0_f64, |size, v| size.max(v.abs())) * f64::EPSILON;
+    let tilt = values.len() as f64 * step + f64::from_bits(values.len() as u64);
+    let near = |p: f64| p <= threshold && p >= threshold - tilt;
+    let exact = threshold <= tilt || persistence(mesh, values).unwrap().pairs.iter().any(|p| near(p.persistence));
+    let tilt = if exact { tilt } else { 0.0 };
     assert!(change <= threshold + tilt, "{name}: {change} for {threshold}");
     if mesh.topology().closed && is_surface(mesh) {
         let counts = critical_points(mesh, &simple, &DeltaOptions::default()).unwrap().counts;
@@ -74,6 +77,15 @@ fn a_threshold_leaves_exactly_the_more_persistent_extrema() {
                     check_threshold(&format!("{name}, {steps} steps {seed}"), &mesh, &tied, threshold);
                 }
             }
+        }
+        for seed in 0..2 {
+            let values = tied(n, seed, 4.0);
+            for pair in persistence(&mesh, &values).unwrap().pairs.iter().take(3) {
+                for threshold in [pair.persistence, pair.persistence.next_up(), pair.persistence.next_down().max(0.0)] {
+                    check_threshold(&format!("{name}, at a tie"), &mesh, &values, threshold);
+                }
+            }
+            check_threshold(&format!("{name}, next to nothing"), &mesh, &values, 1e-300);
         }
         check_threshold(&format!("{name}, constant"), &mesh, &vec![-7.5; n], 0.0);
         check_threshold(&format!("{name}, constant"), &mesh, &vec![0.0; n], 1.0);
@@ -128,7 +140,7 @@ fn whole_numbers_are_cut_at_exactly_their_persistence() {
     for seed in 0..5 {
         let heights: Vec<f64> = tied(terrain.vertex_count(), seed, 12.0).iter().map(|h| (h * 6.0).round()).collect();
         for threshold in [1.0, 2.0, 5.0] {
-            let keep = Keep::Above { threshold, scale: ThresholdScale::Absolute };
+            let keep = Keep::Above(Threshold::Absolute(threshold));
             let simple = simplify(&terrain, &heights, keep).unwrap();
             assert_eq!(extrema(&terrain, &simple), above(&terrain, &heights, threshold));
             let change = largest_change(&heights, &simple);
@@ -141,18 +153,43 @@ fn whole_numbers_are_cut_at_exactly_their_persistence() {
 fn a_smooth_field_is_left_alone() {
     let torus = shapes::torus(60, 40, 0.0).unwrap();
     let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-    let keep = Keep::Above { threshold: 0.05, scale: ThresholdScale::Relative };
+    let keep = Keep::Above(Threshold::Relative(0.05));
     assert_eq!(simplify(&torus, &height, keep).unwrap(), height);
 }
 
 #[test]
 fn ties_are_untied() {
     let grid = shapes::grid(30, 30).unwrap();
-    let simple =
-        simplify(&grid, &vec![1.0; 900], Keep::Above { threshold: 0.0, scale: ThresholdScale::Relative }).unwrap();
+    let simple = simplify(&grid, &vec![1.0; 900], Keep::Above(Threshold::Relative(0.0))).unwrap();
     assert_eq!(extrema(&grid, &simple), BTreeSet::from([(0, CriticalKind::Minimum), (899, CriticalKind::Maximum)]));
     // A few steps in all.
     assert!(simple.iter().all(|&v| (v - 1.0).abs() < 900.0 * f64::EPSILON));
+}
+
+#[test]
+fn large_plateaus_take_linear_time() {
+    // With ids in any order the tilt needs very many steps: counted one by one for every vertex they would take hours.
+    let grid = random_surface(5, &shapes::grid(400, 400).unwrap(), 0.0);
+    for keep in [Keep::Above(Threshold::Relative(0.1)), Keep::Above(Threshold::Absolute(0.0))] {
+        let simple = simplify(&grid, &vec![3.0; 160_000], keep).unwrap();
+        assert_eq!(extrema(&grid, &simple).len(), 2);
+    }
+    let two: Vec<f64> = noise(160_000, 7).iter().map(|v| v.signum()).collect();
+    let simple = simplify(&grid, &two, Keep::Above(Threshold::Absolute(2.0))).unwrap();
+    assert_eq!(extrema(&grid, &simple).len(), 2);
+}
+
+#[test]
+fn the_ends_of_double_precision() {
+    let grid = shapes::grid(6, 6).unwrap();
+    let values: Vec<f64> = noise(36, 2).iter().map(|v| if *v < 0.0 { 0.0 } else { f64::MAX }).collect();
+    match simplify(&grid, &values, Keep::Above(Threshold::Relative(1.0))) {
+        Ok(simple) => assert_eq!(extrema(&grid, &simple).len(), 2),
+        Err(error) => assert_eq!(error.code(), "RangeOverflow"),
+    }
+    let tiny: Vec<f64> = noise(36, 3).iter().map(|v| if *v < 0.0 { -f64::from_bits(1) } else { -0.0 }).collect();
+    let simple = simplify(&grid, &tiny, Keep::Above(Threshold::Relative(1.0))).unwrap();
+    assert_eq!(extrema(&grid, &simple).len(), 2);
 }
 
 #[test]
@@ -160,15 +197,10 @@ fn sheets_that_hang_together_in_a_vertex_may_have_no_room() {
     // The second tetrahedron is as good as flat, but one of its vertices must be its highest or its lowest.
     let pinched = two_tetrahedra_at_a_vertex();
     let values = [0.0, -9.0, 9.0, 5.0, 0.1, 0.1, 0.2];
-    let error =
-        simplify(&pinched, &values, Keep::Above { threshold: 1.0, scale: ThresholdScale::Absolute }).unwrap_err();
+    let error = simplify(&pinched, &values, Keep::Above(Threshold::Absolute(1.0))).unwrap_err();
     assert_eq!(error.code(), "UnavoidableExtremum");
     let triangles = bow_tie();
-    let error = simplify(
-        &triangles,
-        &[0.0, -9.0, 9.0, 0.1, 0.1],
-        Keep::Above { threshold: 1.0, scale: ThresholdScale::Absolute },
-    );
+    let error = simplify(&triangles, &[0.0, -9.0, 9.0, 0.1, 0.1], Keep::Above(Threshold::Absolute(1.0)));
     assert_eq!(error.unwrap_err().code(), "UnavoidableExtremum");
 }
 
@@ -176,7 +208,7 @@ fn sheets_that_hang_together_in_a_vertex_may_have_no_room() {
 fn bad_input_is_refused() {
     let torus = shapes::torus(12, 8, 0.0).unwrap();
     let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-    let above = |threshold| Keep::Above { threshold, scale: ThresholdScale::Relative };
+    let above = |threshold| Keep::Above(Threshold::Relative(threshold));
     let code = |values: &[f64], keep: Keep<'_>| simplify(&torus, values, keep).unwrap_err().code();
     for threshold in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(code(&height, above(threshold)), "InvalidOption");

@@ -1,6 +1,6 @@
 //! Where vertices flow to in one direction, before and after cancellations.
 
-use super::NONE;
+use crate::field::steepest::ends;
 
 /// A forest: every vertex leads on to another one, and an extremum to itself. Behind the vertices come the simple saddles,
 /// through which cancelled extrema flow; such an entry is for the vertex of its saddle.
@@ -10,46 +10,121 @@ pub(super) struct Flow<'a> {
     vertices: usize,
     /// The vertex of every simple saddle.
     saddles: &'a [u32],
-    /// Vertices that cancelled paths lead over: only there can a path come back to where it began.
+    /// Vertices that cancelled paths lead over: only there can a path come back to where it began. Empty where there are none.
     crossed: Vec<bool>,
 }
 
+/// A simple saddle that a cancelled extremum flows over, with the first vertices of its two paths.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    pub(super) unit: u32,
+    pub(super) extremum: u32,
+    pub(super) sides: [u32; 2],
+}
+
 impl<'a> Flow<'a> {
-    /// `steepest` has the next vertex of each vertex.
-    pub(super) fn new(mut steepest: Vec<u32>, saddles: &'a [u32]) -> Self {
+    /// `steepest` has the next vertex of each vertex, `ends` the extremum at which its path ends, where there are crossings.
+    ///
+    /// Cancelling an extremum turns round the path that comes down (or up) from the saddle to it, so that what flowed to it goes
+    /// back and over the saddle. One such path after the other would be turned round again and again: what comes of it in the
+    /// end is a tree of basins with the crossings as its edges, and every basin flows to the one next to it on the way to the
+    /// extremum that is left.
+    pub(super) fn new(steepest: &[u32], ends: &[u32], saddles: &'a [u32], crossings: &[Crossing]) -> Self {
         let vertices = steepest.len();
-        steepest.extend((vertices as u32..).take(saddles.len()));
-        Self { next: steepest, vertices, saddles, crossed: vec![false; vertices] }
+        let mut next = Vec::with_capacity(vertices + saddles.len());
+        next.extend_from_slice(steepest);
+        next.extend((vertices as u32..).take(saddles.len()));
+        let mut this = Self { next, vertices, saddles, crossed: Vec::new() };
+        if !crossings.is_empty() {
+            this.crossed = vec![false; vertices];
+            this.lead_over(ends, crossings);
+            this.cut_short(crossings);
+        }
+        this
     }
 
-    /// Cancels an extremum with a simple saddle: what flowed to the extremum now goes back along the path that came down (or
-    /// up) from the saddle, and over it. `here` is the first vertex of that path, `beyond` that of the other path of the
-    /// saddle.
-    pub(super) fn cancel(&mut self, unit: u32, here: u32, beyond: u32) {
+    fn lead_over(&mut self, ends: &[u32], crossings: &[Crossing]) {
+        // The crossings of each basin, in compressed rows.
+        let mut offsets = vec![0_u32; self.vertices + 1];
+        for end in crossings.iter().flat_map(|crossing| crossing.sides).map(|side| ends[side as usize]) {
+            offsets[end as usize] += 1;
+        }
+        let mut total = 0;
+        for offset in &mut offsets {
+            total += *offset;
+            *offset = total;
+        }
+        let mut around = vec![0_u32; total as usize];
+        for (i, crossing) in crossings.iter().enumerate() {
+            for side in crossing.sides {
+                let place = &mut offsets[ends[side as usize] as usize];
+                *place -= 1;
+                around[*place as usize] = i as u32;
+            }
+        }
+        let of_basin = |basin: u32| &around[offsets[basin as usize] as usize..offsets[basin as usize + 1] as usize];
+        let mut known = vec![false; self.vertices];
+        for crossing in crossings {
+            known[crossing.extremum as usize] = true;
+        }
+        // What is left of each tree of basins: the extremum that is not cancelled.
+        let mut waiting = Vec::new();
+        for end in crossings.iter().flat_map(|crossing| crossing.sides).map(|side| ends[side as usize]) {
+            if !core::mem::replace(&mut known[end as usize], true) {
+                waiting.push(end);
+            }
+        }
+        let mut done = vec![false; crossings.len()];
+        while let Some(basin) = waiting.pop() {
+            for &i in of_basin(basin) {
+                if core::mem::replace(&mut done[i as usize], true) {
+                    continue;
+                }
+                let Crossing { unit, sides: [a, b], .. } = crossings[i as usize];
+                let (to, from) = if ends[a as usize] == basin { (a, b) } else { (b, a) };
+                self.turn_round(unit, from, to);
+                waiting.push(ends[from as usize]);
+            }
+        }
+    }
+
+    /// What led from `from` on to its extremum leads back, over the simple saddle and on to `to`.
+    fn turn_round(&mut self, unit: u32, from: u32, to: u32) {
         let saddle = self.vertices as u32 + unit;
-        let (mut before, mut at) = (saddle, here);
-        self.cross(saddle);
+        let vertex = self.saddles[unit as usize];
+        let (mut before, mut at) = (saddle, from);
+        self.crossed[vertex as usize] = true;
         loop {
-            self.cross(at);
+            self.crossed[at as usize] = true;
             let next = core::mem::replace(&mut self.next[at as usize], before);
             if next == at {
                 break;
             }
             (before, at) = (at, next);
         }
-        self.next[saddle as usize] = beyond;
+        self.next[saddle as usize] = to;
+        // The vertex of the saddle itself need not go to `from` and back.
+        if self.next[vertex as usize] == from {
+            self.next[vertex as usize] = saddle;
+        }
     }
 
-    fn cross(&mut self, at: u32) {
-        let vertex = self.vertex(at);
-        self.crossed[vertex as usize] = true;
+    /// Where a path over a saddle would come back to its vertex at once, it stays there.
+    fn cut_short(&mut self, crossings: &[Crossing]) {
+        for crossing in crossings {
+            let saddle = (self.vertices as u32 + crossing.unit) as usize;
+            let back = self.next[self.next[saddle] as usize];
+            if self.vertex(back) == self.saddles[crossing.unit as usize] && back != self.next[saddle] {
+                self.next[saddle] = back;
+            }
+        }
     }
 
     /// Where the path from a saddle begins whose first vertex was `first`: behind the place where it last comes back over the
     /// saddle, if it does.
     pub(super) fn beginning(&self, saddle: u32, first: u32) -> u32 {
         let (mut begin, mut at) = (first, first);
-        if self.crossed[saddle as usize] {
+        if !self.crossed.is_empty() && self.crossed[saddle as usize] {
             while let Some(next) = self.next(at) {
                 if self.vertex(at) == saddle {
                     begin = next;
@@ -106,24 +181,4 @@ impl<'a> Flow<'a> {
         }
         lengths
     }
-}
-
-/// For every vertex the extremum that it flows to along steepest paths.
-pub(super) fn ends(steepest: &[u32]) -> Vec<u32> {
-    let mut ends = vec![NONE; steepest.len()];
-    let mut path = Vec::new();
-    for start in 0..steepest.len() as u32 {
-        let mut at = start;
-        while ends[at as usize] == NONE && steepest[at as usize] != at {
-            path.push(at);
-            at = steepest[at as usize];
-        }
-        let end = if ends[at as usize] == NONE { at } else { ends[at as usize] };
-        ends[at as usize] = end;
-        for &v in &path {
-            ends[v as usize] = end;
-        }
-        path.clear();
-    }
-    ends
 }

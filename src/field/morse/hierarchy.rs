@@ -1,15 +1,15 @@
 //! Cancels pairs of the Morse complex in order of persistence.
 
 use super::NONE;
-use super::flow::{Flow, ends};
+use super::flow::{Crossing, Flow};
 use super::units::Units;
-use crate::error::{Error, OptionError};
+use crate::error::Error;
 use crate::field::critical::CriticalKind;
 use crate::field::direction::Sweep;
 use crate::field::merging::{Forest, Merging};
-use crate::field::order::{VertexOrder, value_range};
+use crate::field::order::{Threshold, VertexOrder};
 use crate::field::sorting::{ascending_bits, sort_by_key};
-use crate::field::steepest::Steepest;
+use crate::field::steepest::{Steepest, ends};
 use crate::mesh::{LinkKind, TriMesh};
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
@@ -44,19 +44,20 @@ impl MorseHierarchy {
         threshold <= 0.0 || self.nodes[node as usize].cancelled_at > threshold
     }
 
-    /// The extremum that has taken over an extremum's arcs at a threshold; itself as long as it is there.
+    /// For every node itself, as long as it is there at a threshold, and for an extremum that is not the one that has taken over
+    /// its arcs.
     #[must_use]
-    pub fn successor(&self, mut node: u32, threshold: f64) -> u32 {
-        while !self.is_alive(node, threshold) && self.nodes[node as usize].into != node {
-            node = self.nodes[node as usize].into;
-        }
-        node
+    pub fn successors(&self, threshold: f64) -> Vec<u32> {
+        let next = |node: u32| if self.is_alive(node, threshold) { node } else { self.nodes[node as usize].into };
+        let next: Vec<u32> = (0..self.nodes.len() as u32).map(next).collect();
+        ends(&next)
     }
 
     /// Nodes of the arcs that are there at a threshold.
     pub fn arcs_at(&self, threshold: f64) -> impl Iterator<Item = [u32; 2]> {
+        let successors = self.successors(threshold);
         let alive = self.arcs.iter().filter(move |&&[saddle, _]| self.is_alive(saddle, threshold));
-        alive.map(move |&[saddle, extremum]| [saddle, self.successor(extremum, threshold)])
+        alive.map(move |&[saddle, extremum]| [saddle, successors[extremum as usize]])
     }
 }
 
@@ -147,12 +148,15 @@ impl Cancellations {
 
     /// The flows down and up once all of the list up to a threshold is cancelled.
     pub(super) fn flows(&self, threshold: f64) -> [Flow<'_>; 2] {
-        let mut flows =
-            [&self.steepest.down, &self.steepest.up].map(|steepest| Flow::new(steepest.clone(), &self.units.vertices));
-        for &Cancellation { unit, upwards, here, beyond, .. } in self.up_to(threshold) {
-            flows[usize::from(upwards)].cancel(unit, here, beyond);
-        }
-        flows
+        let crossings = [false, true].map(|side| {
+            let of_side = self.up_to(threshold).iter().filter(|cancellation| cancellation.upwards == side);
+            of_side.map(|c| Crossing { unit: c.unit, extremum: c.extremum, sides: [c.here, c.beyond] }).collect()
+        });
+        let [down, up]: [Vec<Crossing>; 2] = crossings;
+        [
+            Flow::new(&self.steepest.down, &self.ends[0], &self.units.vertices, &down),
+            Flow::new(&self.steepest.up, &self.ends[1], &self.units.vertices, &up),
+        ]
     }
 
     /// For every vertex that is an extremum, down and up, the one that has taken its place at a threshold.
@@ -189,15 +193,6 @@ impl Cancellations {
     }
 }
 
-/// The threshold in the units of the values, from one relative to their range.
-pub(super) fn absolute_threshold(mesh: &TriMesh, values: &[f64], persistence: f64) -> Result<f64, Error> {
-    if persistence.is_finite() && persistence >= 0.0 {
-        return Ok(persistence * value_range(mesh.connectivity(), values)?.length());
-    }
-    let expected = "a finite number that is not negative".to_owned();
-    Err(OptionError::InvalidOption { option: "persistence".to_owned(), expected }.into())
-}
-
 /// Cancels the pairs of the Morse complex one after the other, the least persistent first \[Edelsbrunner03\].
 ///
 /// # Definition
@@ -208,7 +203,7 @@ pub(super) fn absolute_threshold(mesh: &TriMesh, values: &[f64], persistence: f6
 /// # Properties
 /// On a closed surface the nodes left at a positive threshold are in number and kind the critical points of the field that
 /// [`simplify`](crate::field::simplify) makes. What is left at any threshold is looked up: see [`MorseHierarchy::is_alive`],
-/// [`MorseHierarchy::successor`], [`MorseHierarchy::arcs_at`].
+/// [`MorseHierarchy::successors`], [`MorseHierarchy::arcs_at`].
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
@@ -257,14 +252,13 @@ pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy,
     Ok(MorseHierarchy { nodes, arcs })
 }
 
-/// The regions that flow to each extremum, once pairs of persistence up to `persistence`, relative to the range of the values,
-/// are cancelled; none are at 0.
+/// The regions that flow to each extremum, once pairs of persistence up to a threshold are cancelled; none are at 0.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `persistence` is negative or not finite.
-pub fn basins(mesh: &TriMesh, values: &[f64], persistence: f64) -> Result<Basins, Error> {
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where the threshold is negative or not finite.
+pub fn basins(mesh: &TriMesh, values: &[f64], persistence: Threshold) -> Result<Basins, Error> {
     let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = absolute_threshold(mesh, values, persistence)?;
+    let threshold = persistence.absolute(mesh, values, "persistence")?;
     let kinds = mesh.connectivity().link_kinds();
     let [descending, ascending] = if threshold > 0.0 {
         let all = Cancellations::new(mesh, order, threshold);

@@ -2,10 +2,10 @@
 
 use super::NONE;
 use super::flow::Flow;
-use super::hierarchy::{Cancellations, absolute_threshold};
+use super::hierarchy::Cancellations;
 use crate::error::{Error, FieldError};
 use crate::field::critical::CriticalKind;
-use crate::field::order::VertexOrder;
+use crate::field::order::{Threshold, VertexOrder};
 use crate::mesh::TriMesh;
 
 /// How far the lines of a Morse complex are drawn.
@@ -14,8 +14,8 @@ pub enum PathStyle {
     /// Every line from its saddle to its extremum. The default.
     #[default]
     Whole,
-    /// A line ends at the first vertex that an earlier one of the same direction has passed: they go on together. Nothing is
-    /// drawn twice.
+    /// A line ends at the first vertex that an earlier one of the same direction has passed: they go on together. Only the
+    /// first edge of a line can be there already.
     Merged,
 }
 
@@ -39,7 +39,7 @@ pub struct MorseComplex {
 /// # Definition
 /// A path starts with the steepest edge into its component of the link, and goes on along the steepest edge of every
 /// vertex, (difference of values) / length, until there is none. Of equally steep edges the one to the lowest (highest)
-/// (value, id) is taken. Where pairs of persistence up to `persistence` (relative to the range of the values) are cancelled
+/// (value, id) is taken. Where pairs of persistence up to `persistence` are cancelled
 /// \[Edelsbrunner03\], paths that led to a cancelled extremum go on from there, along the path from its saddle backwards, and
 /// down (up) the other path of that saddle; at 0 none are.
 ///
@@ -56,18 +56,18 @@ pub struct MorseComplex {
 /// use morse_smooth::{field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let complex = field::morse_complex(&torus, &height, 0.0, field::PathStyle::Whole)?;
+/// let complex = field::morse_complex(&torus, &height, field::Threshold::default(), field::PathStyle::Whole)?;
 /// assert_eq!(complex.saddles.len(), 8);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn morse_complex(
     mesh: &TriMesh,
     values: &[f64],
-    persistence: f64,
+    persistence: Threshold,
     style: PathStyle,
 ) -> Result<MorseComplex, Error> {
     let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = absolute_threshold(mesh, values, persistence)?;
+    let threshold = persistence.absolute(mesh, values, "persistence")?;
     let cancelled = Cancellations::new(mesh, order, threshold);
     let alive = cancelled.alive(threshold);
     let flows = cancelled.flows(threshold);
@@ -76,21 +76,21 @@ pub fn morse_complex(
     let mut starts = [Vec::new(), Vec::new()];
     let mut unit = 0;
     while unit < units.len() {
-        // Simple saddles of one vertex share paths.
+        // Simple saddles of one vertex share paths, and paths that come back over it may become the same.
         let vertex = units.vertices[unit];
-        let already = starts.each_ref().map(Vec::len);
+        let mut begins = [Vec::new(), Vec::new()];
         while unit < units.len() && units.vertices[unit] == vertex {
             for (side, paths) in [units.down[unit], units.up[unit]].into_iter().enumerate() {
                 for first in paths.into_iter().filter(|&first| alive[unit] && first != NONE) {
-                    // Either the first one or the last is what two neighbours have in common.
-                    let known = &starts[side][already[side]..];
-                    let start = Some(&(vertex, first));
-                    if known.first() != start && known.last() != start {
-                        starts[side].push((vertex, first));
-                    }
+                    begins[side].push(flows[side].beginning(vertex, first));
                 }
             }
             unit += 1;
+        }
+        for (starts, begins) in starts.iter_mut().zip(&mut begins) {
+            begins.sort_unstable();
+            begins.dedup();
+            starts.extend(begins.iter().map(|&begin| (vertex, begin)));
         }
     }
     complex.reserve(&starts, &flows, style)?;
@@ -100,10 +100,10 @@ pub fn morse_complex(
         let merged = style == PathStyle::Merged;
         let mut passed = vec![false; if merged { flow.len() } else { 0 }];
         let ends = if merged { flow.ends() } else { Vec::new() };
-        for &(saddle, first) in &starts[side] {
-            let last = complex.trace(flow, saddle, flow.beginning(saddle, first), &mut passed);
+        for &(saddle, begin) in &starts[side] {
+            let last = complex.trace(flow, saddle, begin, &mut passed);
             complex.saddles.push(saddle);
-            complex.extrema.push(if merged { ends[first as usize] } else { last });
+            complex.extrema.push(if merged { ends[begin as usize] } else { last });
             complex.kinds.push(kind);
         }
     }
@@ -142,9 +142,17 @@ impl MorseComplex {
     /// Adds a line and returns its last vertex.
     fn trace(&mut self, flow: &Flow<'_>, saddle: u32, begin: u32, passed: &mut [bool]) -> u32 {
         self.vertices.push(saddle);
-        let mut at = begin;
+        if !passed.is_empty() && flow.next(saddle) == Some(begin) {
+            passed[saddle as usize] = true;
+        }
+        let (mut vertex, mut at) = (saddle, begin);
         let last = loop {
-            self.vertices.push(flow.vertex(at));
+            // Over a cancelled saddle a path may come to one vertex twice in a row.
+            let next_vertex = flow.vertex(at);
+            if next_vertex != vertex {
+                vertex = next_vertex;
+                self.vertices.push(vertex);
+            }
             if !passed.is_empty() && core::mem::replace(&mut passed[at as usize], true) {
                 break at;
             }

@@ -2,14 +2,11 @@
 
 use crate::error::FieldError;
 use crate::field::direction::Sweep;
-use crate::field::merging::Merging;
+use crate::field::merging::{Merged, Merging};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
-use crate::field::steepest::Steepest;
+use crate::field::steepest::{Steepest, ends};
 use crate::mesh::{LinkKind, TriMesh};
-
-/// The end of a list.
-const NONE: u32 = u32::MAX;
 
 /// What a field becomes when only the `wanted` minima are to stay (sweeping upwards), or only the wanted maxima.
 ///
@@ -23,7 +20,7 @@ pub(super) fn flood(
     mesh: &TriMesh,
     order: VertexOrder<'_>,
     downwards: bool,
-    wanted: &[bool],
+    wanted: Vec<bool>,
 ) -> Result<Vec<f64>, FieldError> {
     let steepest = Steepest::by_value(mesh.connectivity(), order);
     let (sweep, mut paths) =
@@ -31,88 +28,110 @@ pub(super) fn flood(
     for (v, _) in wanted.iter().enumerate().filter(|&(_, &wanted)| wanted) {
         paths[v] = v as u32;
     }
-    let saddles = Saddles::with_tips(mesh, order, wanted, downwards);
+    let saddles = Saddles::with_tips(mesh, order, &wanted, downwards);
     let ascending = saddles.ascending(order.values());
-    flood_along(mesh, sweep, paths, &saddles, &ascending, wanted)
+    Mergers::new(mesh, sweep, &paths, &saddles, &ascending).flood(wanted)
 }
 
-/// As [`flood`], for who has the saddles and the steepest paths already. All of the `wanted` must be ends of paths.
-pub(super) fn flood_along(
-    mesh: &TriMesh,
-    sweep: Sweep<'_>,
-    paths: Vec<u32>,
-    saddles: &Saddles,
-    ascending: &[u32],
-    wanted: &[bool],
-) -> Result<Vec<f64>, FieldError> {
-    let values = sweep.values();
-    let mut merging = Merging::new(sweep, paths);
-    let ends: Vec<u32> = (0..values.len() as u32).map(|v| merging.find(v)).collect();
-    let mut basins = Basins {
-        wanted: wanted.to_vec(),
-        levels: vec![if sweep.is_downwards() { f64::INFINITY } else { f64::NEG_INFINITY }; values.len()],
-        next: vec![NONE; values.len()],
-        last: (0..values.len() as u32).collect(),
-    };
-    merging.visit(saddles, ascending, |saddle, merged| {
-        basins.join(merged.survivor, merged.ended, values[saddles.get(saddle).vertex as usize]);
-    });
-    let kinds = mesh.connectivity().link_kinds();
-    let dry = (0..values.len() as u32)
-        .find(|&v| kinds[v as usize] != LinkKind::Isolated && !basins.wanted[merging.find(v) as usize]);
-    if let Some(vertex) = dry {
-        return Err(unconstrained(&mut merging, kinds, vertex));
+/// How the components of a sweep merge, from the first time to the last.
+pub(super) struct Mergers<'a> {
+    mesh: &'a TriMesh,
+    sweep: Sweep<'a>,
+    /// For every vertex the extremum of its steepest path.
+    ends: Vec<u32>,
+    merging: Merging<'a>,
+    list: Vec<Merger>,
+}
+
+/// Two components became one at a height.
+pub(super) struct Merger {
+    merged: Merged,
+    value: f64,
+}
+
+impl Merger {
+    /// The extremum whose component ended, and its persistence.
+    pub(super) fn pair(&self, values: &[f64]) -> (u32, f64) {
+        (self.merged.ended, (values[self.merged.ended as usize] - self.value).abs())
     }
-    let level = |v: usize| basins.levels[ends[v] as usize];
-    let flooded = values
-        .iter()
-        .enumerate()
-        .map(|(v, &value)| if sweep.is_downwards() == (value > level(v)) { level(v) } else { value });
-    Ok(flooded.collect())
 }
 
-/// Numbers the components by their least vertices.
-fn unconstrained(merging: &mut Merging<'_>, kinds: &[LinkKind], vertex: u32) -> FieldError {
-    let mut seen = vec![false; kinds.len()];
-    let mut component = 0;
-    for v in (0..vertex).filter(|&v| kinds[v as usize] != LinkKind::Isolated) {
-        let known = core::mem::replace(&mut seen[merging.find(v) as usize], true);
-        component += usize::from(!known);
+impl<'a> Mergers<'a> {
+    pub(super) fn new(
+        mesh: &'a TriMesh,
+        sweep: Sweep<'a>,
+        paths: &[u32],
+        saddles: &Saddles,
+        ascending: &[u32],
+    ) -> Self {
+        let ends = ends(paths);
+        let mut merging = Merging::new(sweep, ends.clone());
+        let mut list = Vec::new();
+        merging.visit(saddles, ascending, |saddle, merged| {
+            list.push(Merger { merged, value: sweep.values()[saddles.get(saddle).vertex as usize] });
+        });
+        Self { mesh, sweep, ends, merging, list }
     }
-    FieldError::Unconstrained { component, vertex }
-}
 
-/// The basins of the extrema, gathered in lists as long as nothing wanted is among them.
-struct Basins {
-    /// Of the extremum that names a component: whether there is anything wanted in it.
-    wanted: Vec<bool>,
-    /// How far the basin of each extremum is filled.
-    levels: Vec<f64>,
-    next: Vec<u32>,
-    last: Vec<u32>,
-}
+    pub(super) fn list(&self) -> &[Merger] {
+        &self.list
+    }
 
-impl Basins {
-    fn join(&mut self, survivor: u32, ended: u32, level: f64) {
-        let (a, b) = (survivor as usize, ended as usize);
-        match (self.wanted[a], self.wanted[b]) {
-            (true, true) => {}
-            (true, false) => self.fill(ended, level),
-            (false, true) => {
-                self.fill(survivor, level);
-                self.wanted[a] = true;
-            }
-            (false, false) => {
-                self.next[self.last[a] as usize] = ended;
-                self.last[a] = self.last[b];
+    /// The extrema whose components never ended, one for each component of the mesh.
+    pub(super) fn survivors(&self) -> impl Iterator<Item = u32> {
+        let kinds = self.mesh.connectivity().link_kinds();
+        (0..kinds.len() as u32).filter(|&v| self.merging.is_root(v) && kinds[v as usize] != LinkKind::Isolated)
+    }
+
+    /// See [`flood`]. All of the `wanted` must be ends of paths.
+    pub(super) fn flood(mut self, mut wanted: Vec<bool>) -> Result<Vec<f64>, FieldError> {
+        // Forwards: whether anything wanted is in a component, before each merger.
+        let mut before = Vec::with_capacity(self.list.len());
+        for Merger { merged: Merged { survivor, ended }, .. } in &self.list {
+            let (a, b) = (wanted[*survivor as usize], wanted[*ended as usize]);
+            before.push((a, b));
+            wanted[*survivor as usize] = a || b;
+        }
+        let dry = self.survivors().find(|&v| !wanted[v as usize]);
+        if let Some(dry) = dry {
+            return Err(self.unconstrained(dry));
+        }
+        drop(wanted);
+        // Backwards: how far the component of that time is filled, by the extremum that named it.
+        let values = self.sweep.values();
+        let untouched = if self.sweep.is_downwards() { f64::INFINITY } else { f64::NEG_INFINITY };
+        let mut levels = vec![untouched; values.len()];
+        for (merger, wanted) in self.list.iter().zip(before).rev() {
+            let (a, b) = (merger.merged.survivor as usize, merger.merged.ended as usize);
+            match wanted {
+                (true, true) => {}
+                (true, false) => levels[b] = merger.value,
+                (false, true) => (levels[a], levels[b]) = (merger.value, untouched),
+                (false, false) => levels[b] = levels[a],
             }
         }
+        let mut flooded = values.to_vec();
+        for (value, &end) in flooded.iter_mut().zip(&self.ends) {
+            let level = levels[end as usize];
+            if self.sweep.is_downwards() == (*value > level) {
+                *value = level;
+            }
+        }
+        Ok(flooded)
     }
 
-    fn fill(&mut self, mut extremum: u32, level: f64) {
-        while extremum != NONE {
-            self.levels[extremum as usize] = level;
-            extremum = self.next[extremum as usize];
+    /// For the component that an extremum names; components are numbered by their least vertices.
+    fn unconstrained(&mut self, extremum: u32) -> FieldError {
+        let kinds = self.mesh.connectivity().link_kinds();
+        let mut seen = vec![false; kinds.len()];
+        let (mut component, mut vertex) = (0, 0);
+        while kinds[vertex as usize] == LinkKind::Isolated || self.merging.find(vertex) != extremum {
+            if kinds[vertex as usize] != LinkKind::Isolated {
+                let known = core::mem::replace(&mut seen[self.merging.find(vertex) as usize], true);
+                component += usize::from(!known);
+            }
+            vertex += 1;
         }
+        FieldError::Unconstrained { component, vertex }
     }
 }

@@ -5,38 +5,22 @@ mod flooding;
 mod tilt;
 
 use flats::{Role, Surroundings, ordered};
-use flooding::{flood, flood_along};
+use flooding::{Mergers, flood};
 use tilt::tilted;
 
-use crate::error::{Error, FieldError, OptionError};
+use crate::error::{Error, FieldError};
 use crate::field::critical::{CriticalKind, DeltaOptions, critical_points};
 use crate::field::direction::Sweep;
-use crate::field::merging::Merging;
-use crate::field::order::{VertexOrder, value_range};
+use crate::field::order::{Threshold, VertexOrder};
 use crate::field::saddles::Saddles;
 use crate::field::steepest::Steepest;
-use crate::mesh::{LinkKind, TriMesh};
-
-/// What a threshold is measured in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ThresholdScale {
-    /// A fraction of the range of the field. The default.
-    #[default]
-    Relative,
-    /// The units of the values.
-    Absolute,
-}
+use crate::mesh::TriMesh;
 
 /// The extrema that [`simplify`] leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Keep<'a> {
     /// Those of persistence above the threshold, and the lowest and highest vertex of every component.
-    Above {
-        /// The threshold, at least 0.
-        threshold: f64,
-        /// What it is measured in.
-        scale: ThresholdScale,
-    },
+    Above(Threshold),
     /// These minima and maxima, at least one of each in every component.
     Extrema(&'a [u32]),
 }
@@ -50,8 +34,9 @@ pub enum Keep<'a> {
 /// ones; this is checked before the field is returned. With a threshold this is ε-simplification \[Edelsbrunner06\].
 ///
 /// # Properties
-/// With a threshold, no value changes by more than it (where persistence equals the threshold to the last bit, on both sides
-/// of one flat region, the tilt may come on top). On closed surfaces saddles then number minima + maxima − χ. Where a
+/// With a threshold, no value changes by more than it, but for the tilt where a pair is as persistent as the threshold or so
+/// nearly that the difference is of its size: at most as many steps of double precision as the flat region has vertices. On
+/// closed surfaces saddles then number minima + maxima − χ. Where a
 /// vertex was not involved, its value is unchanged. O(n) but for sorting.
 ///
 /// # Units
@@ -59,7 +44,7 @@ pub enum Keep<'a> {
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for a threshold that is negative or not finite;
-/// `IndexOutOfBounds`, `NotAnExtremum` for what is to be kept, `Unconstrained` where a component keeps no minimum or no
+/// `RangeOverflow` where the tilt leaves the range of doubles; `IndexOutOfBounds`, `NotAnExtremum` for what is to be kept, `Unconstrained` where a component keeps no minimum or no
 /// maximum; `UnavoidableExtremum` where the mesh hangs together in a single vertex and has no such field.
 ///
 /// # Example
@@ -67,7 +52,7 @@ pub enum Keep<'a> {
 /// use morse_smooth::{field, mesh::shapes};
 /// let sphere = shapes::irregular_sphere(500, 1)?;
 /// let bumpy: Vec<f64> = sphere.positions().chunks_exact(3).enumerate().map(|(v, p)| p[2] + 0.1 * f64::from(v as u32 % 7)).collect();
-/// let keep = field::Keep::Above { threshold: 0.4, scale: field::ThresholdScale::Relative };
+/// let keep = field::Keep::Above(field::Threshold::Relative(0.4));
 /// let simple = field::simplify(&sphere, &bumpy, keep)?;
 /// let counts = field::critical_points(&sphere, &simple, &field::DeltaOptions::default())?.counts;
 /// assert_eq!((counts.minima, counts.maxima, counts.saddles), (1, 1, 0));
@@ -76,30 +61,26 @@ pub enum Keep<'a> {
 pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f64>, Error> {
     let order = VertexOrder::new(values, mesh.vertex_count())?;
     let (roles, bound, filled) = match keep {
-        Keep::Above { threshold, scale } => {
-            if !(threshold.is_finite() && threshold >= 0.0) {
-                let expected = "a finite number that is not negative".to_owned();
-                return Err(OptionError::InvalidOption { option: "threshold".to_owned(), expected }.into());
-            }
-            let bound = match scale {
-                ThresholdScale::Absolute => threshold,
-                ThresholdScale::Relative => threshold * value_range(mesh.connectivity(), values)?.length(),
-            };
+        Keep::Above(threshold) => {
+            let bound = threshold.absolute(mesh, values, "threshold")?;
             let (roles, filled) = persistent(mesh, order, bound)?;
             (roles, bound, filled)
         }
         Keep::Extrema(vertices) => {
             let roles = named(mesh, values, vertices)?;
-            let filled = flood(mesh, order, false, &having(&roles, Role::Minimum))?;
+            let filled = flood(mesh, order, false, having(&roles, Role::Minimum))?;
             (roles, f64::INFINITY, filled)
         }
     };
     let between = VertexOrder::new(&filled, filled.len())?;
-    let levels = flood(mesh, between, true, &having(&roles, Role::Maximum))?;
+    let levels = flood(mesh, between, true, having(&roles, Role::Maximum))?;
     drop(filled);
     let around = Surroundings::new(mesh.connectivity(), &levels, &roles);
     let sequence = ordered(mesh.connectivity(), &around, &roles);
     let simple = tilted(mesh.connectivity(), &around, &levels, sequence, values, bound);
+    if !simple.iter().all(|value| value.is_finite()) {
+        return Err(FieldError::RangeOverflow {}.into());
+    }
     check(mesh, &simple, &roles)?;
     Ok(simple)
 }
@@ -114,25 +95,21 @@ fn persistent(mesh: &TriMesh, order: VertexOrder<'_>, bound: f64) -> Result<(Vec
     let saddles = Saddles::new(mesh, order);
     let ascending = saddles.ascending(values);
     let steepest = Steepest::by_value(mesh.connectivity(), order);
+    let hills = Mergers::new(mesh, Sweep::downwards(order), &steepest.up, &saddles, &ascending);
+    let basins = Mergers::new(mesh, Sweep::upwards(order), &steepest.down, &saddles, &ascending);
     let mut roles = vec![Role::Ordinary; values.len()];
-    for (sweep, paths, role) in
-        [(Sweep::upwards(order), &steepest.down, Role::Minimum), (Sweep::downwards(order), &steepest.up, Role::Maximum)]
-    {
-        let mut merging = Merging::new(sweep, paths.clone());
-        merging.visit(&saddles, &ascending, |saddle, merged| {
-            let persistence = (values[merged.ended as usize] - values[saddles.get(saddle).vertex as usize]).abs();
+    for (mergers, role) in [(&hills, Role::Maximum), (&basins, Role::Minimum)] {
+        for merger in mergers.list() {
+            let (extremum, persistence) = merger.pair(values);
             if persistence > bound {
-                roles[merged.ended as usize] = role;
-            }
-        });
-        for (v, &kind) in mesh.connectivity().link_kinds().iter().enumerate() {
-            if merging.is_root(v as u32) && kind != LinkKind::Isolated {
-                roles[v] = role;
+                roles[extremum as usize] = role;
             }
         }
+        for extremum in mergers.survivors() {
+            roles[extremum as usize] = role;
+        }
     }
-    let filled =
-        flood_along(mesh, Sweep::upwards(order), steepest.down, &saddles, &ascending, &having(&roles, Role::Minimum))?;
+    let filled = basins.flood(having(&roles, Role::Minimum))?;
     Ok((roles, filled))
 }
 

@@ -37,7 +37,7 @@ pub(super) fn tilted(
         if excess > 0 {
             lowered = true;
             for &v in run {
-                bases[v as usize] = (0..excess).fold(levels[v as usize], |base, _| base.next_down());
+                bases[v as usize] = number((ordinal(levels[v as usize]) - excess).max(ordinal(f64::MIN)));
             }
         }
     }
@@ -83,13 +83,33 @@ fn change(before: &[f64], after: &[f64]) -> f64 {
 }
 
 /// How many doubles lie between `value` and the greatest one within the bound; none are counted below the level.
-fn steps_above(mut value: f64, level: f64, original: f64, bound: f64) -> u32 {
-    let mut steps = 0;
-    while value > level && value - original > bound {
-        value = value.next_down();
-        steps += 1;
+fn steps_above(value: f64, level: f64, original: f64, bound: f64) -> i64 {
+    let (mut within, mut above) = (ordinal(level), ordinal(value));
+    if value - original <= bound || above <= within {
+        return 0;
     }
-    steps
+    let highest = above;
+    while above - within > 1 {
+        let middle = within + (above - within) / 2;
+        if number(middle) - original <= bound {
+            within = middle;
+        } else {
+            above = middle;
+        }
+    }
+    highest - within
+}
+
+/// The place of a double among all, 0 for 0.
+fn ordinal(value: f64) -> i64 {
+    let bits = (value + 0.0).to_bits() as i64;
+    if bits < 0 { i64::MIN - bits } else { bits }
+}
+
+/// The double of a place.
+fn number(ordinal: i64) -> f64 {
+    let size = f64::from_bits(ordinal.unsigned_abs());
+    if ordinal < 0 { -size } else { size }
 }
 
 fn climb(connectivity: &Connectivity, levels: &[f64], order: &[u32], bases: &[f64]) -> Vec<f64> {
