@@ -20,11 +20,16 @@ impl<'a> VertexOrder<'a> {
             return Err(FieldError::LengthMismatch { expected: vertices, actual: values.len() });
         }
         // The sum of v·0 is zero unless a value is not finite: one pass without branches; the search is for the message.
-        if values.iter().map(|v| v * 0.0).sum::<f64>() != 0.0 {
+        let (mut nothing, mut min, mut max) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+        for &v in values {
+            nothing += v * 0.0;
+            min = if v < min { v } else { min };
+            max = if v > max { v } else { max };
+        }
+        if nothing != 0.0 {
             let vertex = values.iter().position(|v| !v.is_finite()).unwrap_or(0) as u32;
             return Err(FieldError::NonFiniteValue { vertex });
         }
-        let (min, max) = extent(values.iter().copied());
         if values.is_empty() || (max - min).is_finite() {
             Ok(Self { values })
         } else {
@@ -75,15 +80,14 @@ impl ValueRange {
 pub fn value_range(connectivity: &Connectivity, values: &[f64]) -> Result<ValueRange, FieldError> {
     let values = VertexOrder::new(values, connectivity.vertex_count())?.values();
     let kinds = connectivity.link_kinds();
-    let (min, max) =
-        extent(values.iter().zip(kinds).filter(|&(_, &kind)| kind != LinkKind::Isolated).map(|(&value, _)| value));
+    let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+    for i in 0..values.len() {
+        if kinds[i] != LinkKind::Isolated {
+            min = if values[i] < min { values[i] } else { min };
+            max = if values[i] > max { values[i] } else { max };
+        }
+    }
     Ok(ValueRange { min, max })
-}
-
-fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), v| {
-        (if v < min { v } else { min }, if v > max { v } else { max })
-    })
 }
 
 /// A difference of values that divides what matters from what does not.

@@ -441,7 +441,10 @@ export interface MorseComplexOptions {
   paths?: 'whole' | 'merged';
 }
 
-/** One line for each saddle and component of its link, from the saddle to the extremum. */
+/**
+ * One line for each saddle and component of its link, from the saddle to the extremum. Where cancelled paths lead back over a saddle,
+ * two of its lines can become one.
+ */
 export interface MorseComplex extends Polylines {
   /** The saddle that each line comes from. */
   saddles: Uint32Array;

@@ -177,7 +177,7 @@ describe('refused', () => {
   it('saddles', () => {
     const call = (levels) => () => same().levelSets([1, 2, 3, 4], levels);
     for (const saddles of [false, 1, 'all', () => true]) {
-      expectError(call({ saddles }), 'InvalidOption', { option: 'saddles' });
+      expectError(call({ saddles }), 'InvalidArgument', { argument: 'saddles' });
     }
     for (const saddles of [{}, new Float64Array(1), new Int32Array(1), new Map()]) {
       expectError(call({ saddles }), 'InvalidArgument', { argument: 'saddles' });

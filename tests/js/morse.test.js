@@ -238,7 +238,8 @@ describe('the Morse hierarchy', () => {
         const { arcs } = lookUp(hierarchy, persistence * rangeOf(shapes[name], values));
         const texts = (list) => list.map(({ text }) => text);
         expect(new Set(texts(lines))).toEqual(new Set(texts(arcs)));
-        // The simple saddles of one vertex share lines; others have theirs for themselves.
+        // The simple saddles of one vertex share lines; others have theirs for themselves, as long as nothing leads back over them.
+        if (persistence > 0) continue;
         const simple = lines.filter(({ saddle }) => nodesAt[saddle] === 1);
         const arcsOfSimple = arcs.filter(({ saddle }) => nodesAt[hierarchy.vertices[saddle]] === 1);
         expect(texts(simple).sort()).toEqual(texts(arcsOfSimple).sort());
