@@ -1,50 +1,8 @@
 //! Components of growing sublevel or superlevel sets, by union and find.
 
 use super::direction::Sweep;
+use super::forest::Forest;
 use super::saddles::Saddles;
-
-/// Sets of vertices, each named by one of them.
-#[derive(Debug)]
-pub(super) struct Forest {
-    /// Towards the name.
-    parents: Vec<u32>,
-}
-
-impl Forest {
-    pub(super) fn new(parents: Vec<u32>) -> Self {
-        Self { parents }
-    }
-
-    #[inline]
-    pub(super) fn find(&mut self, mut v: u32) -> u32 {
-        loop {
-            let parent = self.parents[v as usize];
-            if parent == v {
-                return v;
-            }
-            // Half of the way becomes shorter each time.
-            let above = self.parents[parent as usize];
-            self.parents[v as usize] = above;
-            v = above;
-        }
-    }
-
-    pub(super) fn is_name(&self, v: u32) -> bool {
-        self.parents[v as usize] == v
-    }
-
-    /// Two names become the second one.
-    pub(super) fn lead(&mut self, from: u32, to: u32) {
-        self.parents[from as usize] = to;
-    }
-
-    /// Whether `a` and `b` were in different sets until now.
-    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        self.lead(a, b);
-        a != b
-    }
-}
 
 /// The components of what a sweep has met, each named by the extremum that it began with.
 ///

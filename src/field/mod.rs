@@ -3,10 +3,10 @@
 
 mod critical;
 mod direction;
+mod forest;
 mod hierarchy;
 mod level;
 mod link;
-mod link_sides;
 mod merging;
 mod morse;
 mod order;

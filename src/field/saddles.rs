@@ -1,7 +1,7 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
 use super::critical::{ONE_CHANGE, exact_states};
-use super::link_sides::LinkSides;
+use super::link::{LinkSides, opposite};
 use super::order::VertexOrder;
 use super::sorting::{ascending_bits, sort_by_key};
 use super::steepest::steepest_of;
@@ -109,14 +109,7 @@ impl Saddles {
     fn push_changes(&mut self, mesh: &TriMesh, order: VertexOrder<'_>, v: u32, above: &mut Vec<u32>) {
         above.clear();
         for &t in mesh.connectivity().star(v) {
-            let [a, b, c] = mesh.connectivity().triangles()[t as usize];
-            let (j, k) = if a == v {
-                (b, c)
-            } else if b == v {
-                (c, a)
-            } else {
-                (a, b)
-            };
+            let [j, k] = opposite(mesh.connectivity().triangles()[t as usize], v);
             let j_is_lower = order.is_below(j, v);
             if j_is_lower != order.is_below(k, v) {
                 let (low, high) = if j_is_lower { (j, k) } else { (k, j) };

@@ -52,7 +52,7 @@ const SOLVER: [&[&str]; 11] = [
 
 /// The files and folders of `field` in groups, likewise.
 const FIELD: [&[&str]; 8] = [
-    &["order", "sorting", "link", "link_sides"],
+    &["order", "sorting", "forest", "link"],
     &["direction", "critical", "steepest"],
     &["hierarchy", "saddles", "level"],
     &["merging"],

@@ -4,7 +4,7 @@ use std::collections::BinaryHeap;
 
 use core::cmp::Reverse;
 
-use crate::field::merging::Forest;
+use crate::field::forest::Forest;
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::field::sorting::{sort_by_key, sort_by_value};
