@@ -50,12 +50,13 @@ pub enum Keep<'a> {
 /// # Example
 /// ```
 /// use morse_smooth::{field, mesh::shapes};
-/// let sphere = shapes::irregular_sphere(500, 1)?;
-/// let bumpy: Vec<f64> = sphere.positions().chunks_exact(3).enumerate().map(|(v, p)| p[2] + 0.1 * f64::from(v as u32 % 7)).collect();
-/// let keep = field::Keep::Above(field::Threshold::Relative(0.4));
-/// let simple = field::simplify(&sphere, &bumpy, keep)?;
-/// let counts = field::critical_points(&sphere, &simple, &field::DeltaOptions::default())?.counts;
-/// assert_eq!((counts.minima, counts.maxima, counts.saddles), (1, 1, 0));
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let bumps = |v: usize| 0.1 * (v % 7) as f64;
+/// let bumpy: Vec<f64> = torus.positions().chunks_exact(3).enumerate().map(|(v, p)| p[0] + 0.1 * p[2] + bumps(v)).collect();
+/// let keep = field::Keep::Above(field::Threshold::Absolute(0.6));
+/// let simple = field::simplify(&torus, &bumpy, keep)?;
+/// let counts = field::critical_points(&torus, &simple, &field::DeltaOptions::default())?.counts;
+/// assert_eq!((counts.minima, counts.maxima, counts.saddles), (1, 1, 2));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f64>, Error> {
