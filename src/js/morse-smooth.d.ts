@@ -211,7 +211,8 @@ export class TriMesh {
    * The mesh cut along level sets, so that every triangle lies between two levels: band k holds what is at least `levels[k − 1]`
    * and less than `levels[k]`. What a filled contour plot draws.
    *
-   * @throws as {@link TriMesh.levelSets}
+   * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `InvalidOption` for more than 10,000 levels;
+   *   `OutOfMemory` (`bytes`)
    */
   bands(values: Numbers, levels: Numbers | { count: number }): Bands;
 
@@ -225,7 +226,8 @@ export class TriMesh {
 
   /**
    * Pairs every extremum with the saddle at which its component of the sublevel (superlevel) set joins that of a lower (higher)
-   * extremum. The most persistent pair comes first.
+   * extremum. The most persistent pair comes first. Slower where sheets meet, and slow on soups in which most edges have many
+   * triangles.
    */
   persistence(values: Numbers): PersistencePairs;
 
