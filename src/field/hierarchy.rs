@@ -94,31 +94,32 @@ pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Res
     let connectivity = mesh.connectivity();
     let order = VertexOrder::new(values, connectivity.vertex_count())?;
     let Measured { found, nearest, largest } = measured(connectivity, order);
-    let mut thresholds = Thresholds {
-        connectivity,
-        values,
-        nearest: &nearest,
-        link,
-        scratch: None,
-        units: Vec::new(),
-        upper: Vec::new(),
-    };
+    let kinds = connectivity.link_kinds();
+    let mut thresholds = Thresholds { connectivity, values, link, scratch: None, units: Vec::new(), upper: Vec::new() };
     let mut points = Vec::with_capacity(found.points.len());
     let counts = found.counts;
     let mut keys = Vec::with_capacity((counts.minima + counts.maxima + counts.saddles) as usize);
-    for point in &found.points {
-        thresholds.find(point);
-        let (mut vanishes_at, mut vanishes_at_absolute) = (0.0, 0.0);
-        for unit in 0..point.multiplicity as usize {
+    for &CriticalPoint { vertex, kind, multiplicity, .. } in &found.points {
+        let is_simple =
+            multiplicity == 1 && kinds[vertex as usize] == LinkKind::Cycle && link == LinkReading::Consecutive;
+        let (vanishes_at_absolute, vanishes_at);
+        if kind != CriticalKind::Saddle || is_simple {
+            // A strict extremum lasts until δ reaches the nearest of its link vertices. A simple saddle has four link edges with
+            // its ends on opposite sides, and needs them all.
+            vanishes_at_absolute = f64::from_bits(nearest[vertex as usize] & !SIGN);
+            vanishes_at = relative(vanishes_at_absolute, largest);
+            keys.push(key(vanishes_at, kind));
+        } else {
+            thresholds.find(vertex);
             // Parts without a positive δ are told from equal neighbours by ids alone.
-            let absolute = thresholds.units.get(unit).map_or(0.0, |&bits| f64::from_bits(bits));
-            let relative = relative(absolute, largest);
-            if unit == 0 {
-                (vanishes_at, vanishes_at_absolute) = (relative, absolute);
+            let absolute = |unit: usize| thresholds.units.get(unit).map_or(0.0, |&bits| f64::from_bits(bits));
+            vanishes_at_absolute = absolute(0);
+            vanishes_at = relative(vanishes_at_absolute, largest);
+            for unit in 0..multiplicity as usize {
+                keys.push(key(relative(absolute(unit), largest), kind));
             }
-            keys.push(key(relative, point.kind));
         }
-        points.push(HierarchyPoint { vertex: point.vertex, kind: point.kind, vanishes_at, vanishes_at_absolute });
+        points.push(HierarchyPoint { vertex, kind, vanishes_at, vanishes_at_absolute });
     }
     let curve = curve(&sorted(&keys), &counts);
     Ok(DeltaHierarchy { points, curve, index_sum: counts.index_sum.unwrap_or_default() })
@@ -127,35 +128,27 @@ pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Res
 /// The bit of a number that has its sign.
 const SIGN: u64 = 1 << 63;
 
-/// Finds the absolute δ at which critical vertices vanish.
+/// Finds the absolute δ at which the parts of saddles vanish.
 struct Thresholds<'a> {
     connectivity: &'a Connectivity,
     values: &'a [f64],
-    /// See [`Measured`].
-    nearest: &'a [u64],
     link: LinkReading,
     /// Made for the first vertex that needs it: many fields have none.
     scratch: Option<LinkScratch>,
-    /// The result, as the bits of positive numbers: for every part of a saddle its δ, descending; for extrema one.
+    /// The result, as the bits of positive numbers: for every part of a saddle its δ, descending.
     units: Vec<u64>,
     upper: Vec<u64>,
 }
 
 impl Thresholds<'_> {
-    fn find(&mut self, point: &CriticalPoint) {
-        let is_cycle = self.connectivity.link_kinds()[point.vertex as usize] == LinkKind::Cycle;
-        let nearest = self.nearest[point.vertex as usize];
+    /// Of a saddle.
+    fn find(&mut self, vertex: u32) {
+        let is_cycle = self.connectivity.link_kinds()[vertex as usize] == LinkKind::Cycle;
         self.units.clear();
-        if point.kind != CriticalKind::Saddle {
-            // A strict extremum lasts until δ reaches the nearest of its link vertices.
-            self.units.push(nearest & !SIGN);
-        } else if !is_cycle || self.link == LinkReading::Skip {
-            self.components(point.vertex, is_cycle);
-        } else if point.multiplicity == 1 {
-            // It has four link edges with its ends on opposite sides, and needs them all.
-            self.units.push(nearest);
+        if !is_cycle || self.link == LinkReading::Skip {
+            self.components(vertex, is_cycle);
         } else {
-            self.changes(point.vertex);
+            self.changes(vertex);
         }
     }
 
