@@ -1,5 +1,6 @@
 import init, { TriMesh } from 'morse-smooth';
 import { beforeAll, describe, expect, it } from 'vitest';
+import { takeAnyValues } from './any-values.js';
 import { expectError } from './errors.js';
 import {
   heights,
@@ -238,41 +239,7 @@ describe('values and results', () => {
     simplify: (mesh, values) => ({ values: mesh.simplify(values, { threshold: 0.3 }) }),
   };
 
-  it.each(Object.keys(methods))('%s takes every kind of numbers, and gives arrays of the caller’s own', (name) => {
-    const mesh = make(shapes.sphere);
-    const single = Float32Array.from(noise(shapes.sphere, 17));
-    const before = Float64Array.from(single);
-    const call = (values) => methods[name](mesh, values);
-    const result = call(before);
-    expect(call(single)).toEqual(result);
-    expect(call([...single])).toEqual(result);
-    expect(before).toEqual(Float64Array.from(single));
-    for (const array of Object.values(result)) {
-      // As long as its buffer: no view of the module's memory, which would go stale.
-      expect(array.byteLength).toBe(array.buffer.byteLength);
-      array.fill(1);
-    }
-    expect(call(before)).toEqual(call(single));
-    expect(call(before)).not.toEqual(result);
-  });
-
-  it.each(Object.keys(methods))('%s refuses other values', (name) => {
-    const mesh = make(tetrahedron());
-    const method = (values) => methods[name](mesh, values);
-    expectError(() => method([1, 2, 3]), 'LengthMismatch', { expected: 4, actual: 3 });
-    expectError(() => method(new Float32Array(5)), 'LengthMismatch', { expected: 4, actual: 5 });
-    expectError(() => method([1, 2, NaN, 4]), 'NonFiniteValue', { vertex: 2 });
-    expectError(() => method([1, 2, 3, -Infinity]), 'NonFiniteValue', { vertex: 3 });
-    expectError(() => method([1, '2', 3, 4]), 'InvalidArgument', { argument: 'values', index: 1 });
-    expectError(() => method([1, 2, 3, 4n]), 'InvalidArgument', { argument: 'values', index: 3 });
-    for (const bad of ['1234', undefined, null, {}, new Int32Array(4)]) {
-      expectError(() => method(bad), 'InvalidArgument', { argument: 'values' });
-    }
-    expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');
-    expect(() => method([1, 2, 3, 4])).not.toThrow();
-    mesh.free();
-    expectError(() => method([1, 2, 3, 4]), 'UseAfterFree', { object: 'TriMesh' });
-  });
+  takeAnyValues(methods);
 });
 
 describe('simplify refuses', () => {
