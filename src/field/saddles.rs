@@ -58,17 +58,8 @@ impl Saddles {
                 continue;
             }
             sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            for lower in [true, false] {
-                if is_tip && lower != upper {
-                    this.first.push(v);
-                }
-                for &component in sides.components() {
-                    if component.lower == lower {
-                        this.first.push(sides.members(component)[0]);
-                    }
-                }
-                this.offsets.push(this.first.len() as u32);
-            }
+            let tip = is_tip.then_some(upper);
+            this.push_components(v, &sides, tip, &|members| members[0]);
             this.close(v, sides.lower_components());
         }
         this
@@ -88,14 +79,7 @@ impl Saddles {
                 continue;
             }
             sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            for lower in [true, false] {
-                for &component in sides.components() {
-                    if component.lower == lower {
-                        this.first.push(steepest_of(mesh, order, v, sides.members(component)));
-                    }
-                }
-                this.offsets.push(this.first.len() as u32);
-            }
+            this.push_components(v, &sides, None, &|members| steepest_of(mesh, order, v, members));
             this.close(v, sides.lower_components());
         }
         this
@@ -103,6 +87,21 @@ impl Saddles {
 
     fn empty() -> Self {
         Self { vertices: Vec::new(), offsets: vec![0], first: Vec::new(), lower_components: Vec::new() }
+    }
+
+    /// One vertex of each component; before them the vertex itself, on the upper or lower side, if it is a tip there.
+    fn push_components(&mut self, v: u32, sides: &LinkSides, upper_tip: Option<bool>, pick: &dyn Fn(&[u32]) -> u32) {
+        for upper in [false, true] {
+            if upper_tip == Some(upper) {
+                self.first.push(v);
+            }
+            for &component in sides.components() {
+                if component.lower != upper {
+                    self.first.push(pick(sides.members(component)));
+                }
+            }
+            self.offsets.push(self.first.len() as u32);
+        }
     }
 
     /// Around a cycle, both ends of every edge between a lower and an upper vertex: each component has two, or twice the same.
