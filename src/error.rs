@@ -369,6 +369,38 @@ stage_error! {
 }
 
 stage_error! {
+    /// A field cannot be smoothed as asked.
+    SmoothError {
+        /// A component of the mesh has no constrained vertex, so that the equations do not determine its values.
+        Unconstrained {
+            /// The component, numbered by its least vertex.
+            component: usize,
+            /// That vertex.
+            vertex: u32,
+        } => "component {component} of the mesh, with vertex {vertex}, has no constrained vertex; constrain one of its vertices, or choose to keep its values or their mean (option `unconstrained`)",
+        /// Not one weight per constrained vertex.
+        LengthMismatch {
+            /// Number of constrained vertices.
+            expected: usize,
+            /// Number of weights.
+            actual: usize,
+        } => "{expected} vertices are constrained, but there are {actual} weights",
+        /// The weight of a constraint is not positive and finite.
+        InvalidWeight {
+            /// Its place among the weights.
+            index: usize,
+            /// The constrained vertex.
+            vertex: u32,
+        } => "the weight of vertex {vertex} (number {index}) is not positive and finite",
+        /// The steps of a filter make values grow beyond all bounds.
+        Diverged {
+            /// Steps taken.
+            iterations: usize,
+        } => "the values grow beyond bounds after {iterations} iterations; a smaller step or weights without negative ones help",
+    }
+}
+
+stage_error! {
     /// An option is unknown, out of range, or does not apply.
     OptionError {
         /// No option of that name.
@@ -424,6 +456,8 @@ pub enum Error {
     Field(FieldError),
     /// In a linear system.
     Solve(SolveError),
+    /// In what is asked of a smoothing.
+    Smooth(SmoothError),
     /// In the options.
     Option(OptionError),
 }
@@ -474,7 +508,14 @@ macro_rules! wrap_stage {
         }
     };
 }
-wrap_stage!(Parse(ParseError), Mesh(MeshError), Field(FieldError), Solve(SolveError), Option(OptionError));
+wrap_stage!(
+    Parse(ParseError),
+    Mesh(MeshError),
+    Field(FieldError),
+    Solve(SolveError),
+    Smooth(SmoothError),
+    Option(OptionError)
+);
 
 /// Something in the input that was put right or left out, and that the user should know.
 #[derive(Debug, Clone, PartialEq, Eq)]

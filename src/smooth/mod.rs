@@ -1,16 +1,23 @@
 //! Smoothing: the systems of \[Patane09, section 4\] set up, solved and reported.
 
-mod complex;
-mod factors;
-mod iterative;
-mod real;
-mod refine;
+mod bounds;
+mod channels;
+mod constraints;
+mod interpolate;
+mod least_squares;
+mod maximum_principle;
+mod regularized;
 mod report;
 mod routes;
 mod system;
 mod tikhonov;
 
+pub use constraints::{Constraints, Unconstrained};
+pub use interpolate::InterpolateOptions;
+pub use least_squares::LeastSquaresOptions;
+pub use maximum_principle::MaximumPrinciple;
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
+pub use system::Energy;
 pub use tikhonov::{Metric, TikhonovOptions, epsilon_for_wavelength};
 
 use nalgebra_sparse::CscMatrix;
@@ -18,7 +25,9 @@ use nalgebra_sparse::CscMatrix;
 use crate::error::{OptionError, Result};
 use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
-use system::TikhonovSystem;
+use channels::Channels;
+use constraints::{ConstraintSet, LeftOut};
+use system::{FullSystem, Manner, Reach, ReducedSystem};
 
 /// Which solver a [`Smoother`] uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,6 +75,8 @@ pub struct SmootherOptions {
     pub solver: SolverChoice,
     /// The precision of factors; conjugate gradients without a factor are always in double. Default double.
     pub precision: Precision,
+    /// Whether reports tell how far results move when the input does, which costs some more solves. Default false.
+    pub bounds: bool,
 }
 
 /// A step of the work, for progress displays.
@@ -120,7 +131,13 @@ pub struct Smoother {
     mesh: TriMesh,
     options: SmootherOptions,
     laplacian: CscMatrix<f64>,
-    tikhonov: Option<TikhonovSystem>,
+    reach: Reach,
+    /// With all vertices reached as unknowns.
+    full: Option<FullSystem>,
+    /// Without the components that the last constraints left out.
+    partial: Option<FullSystem>,
+    /// With the vertices that the last constraints left free.
+    reduced: Option<ReducedSystem>,
 }
 
 impl Smoother {
@@ -135,7 +152,8 @@ impl Smoother {
             return Err(OptionError::InapplicableOption { option: "weights".to_owned(), reason }.into());
         }
         let laplacian = operators::laplacian(mesh, options.weights)?;
-        Ok(Self { mesh: mesh.clone(), options, laplacian, tikhonov: None })
+        let reach = Reach::new(mesh, &laplacian, options.operator)?;
+        Ok(Self { mesh: mesh.clone(), options, laplacian, reach, full: None, partial: None, reduced: None })
     }
 
     /// The mesh.
@@ -190,5 +208,149 @@ impl Smoother {
         progress: Progress<'_>,
     ) -> Result<Smoothed> {
         tikhonov::run(self, values, options, progress)
+    }
+
+    /// Interpolates the values of constrained vertices by a smooth field: eq. (6) of \[Patane09\].
+    ///
+    /// # Definition
+    /// With the values f_I of the constrained vertices given, the others are g with L_FF g = −L_FI f_I ([`Energy::Harmonic`]), or
+    /// those for which ‖Lx‖ is least ([`Energy::Biharmonic`]; with [`Operator::Fem`], xᵀLM⁻¹Lx). Where L is not symmetric, the
+    /// harmonic system is solved through its normal equations.
+    ///
+    /// # Properties
+    /// Constrained values stay to the last bit. With 1-stars every constrained critical point keeps its type. Constants are
+    /// kept; T(af + b) = aT(f) + b. An empty set leaves no component constrained, a full one changes nothing. For what harmonic
+    /// interpolation promises about other extrema see [`MaximumPrinciple`].
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds` (a constrained vertex), `InvalidOption`,
+    /// `Unconstrained`; `NotPositiveDefinite`, `NotConverged`, `OutOfMemory` from the solver. Nothing is lost by them.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::field::{DeltaOptions, Features};
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{Constraints, Energy, InterpolateOptions, Smoother, SmootherOptions, Unconstrained};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let features = Features::CriticalPoints(DeltaOptions::default());
+    /// let constraints = Constraints { features, stars: true, unconstrained: Unconstrained::Error };
+    /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let options = InterpolateOptions { constraints, energy: Energy::Harmonic, channels: 1 };
+    /// let report = smoother.interpolate(&field, &options)?.reports.remove(0);
+    /// assert_eq!(report.preserved, report.constrained_critical_points);
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn interpolate(&mut self, values: &[f64], options: &InterpolateOptions<'_>) -> Result<Smoothed> {
+        self.interpolate_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::interpolate`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::interpolate`].
+    pub fn interpolate_with_progress(
+        &mut self,
+        values: &[f64],
+        options: &InterpolateOptions<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        interpolate::run(self, values, options, progress)
+    }
+
+    /// Pulls some vertices towards their values and smooths the rest: eq. (7) of \[Patane09\].
+    ///
+    /// # Definition
+    /// (LᵀL + εΔ) x = εΔf, where the diagonal matrix Δ holds the weights of the constrained vertices and zeros elsewhere (the
+    /// paper leaves out the ε on the right); L M⁻¹ L instead of LᵀL with [`Operator::Fem`].
+    ///
+    /// # Properties
+    /// Constants are kept; T(af + b) = aT(f) + b; the weighted sum over the constrained vertices stays. With all vertices
+    /// constrained by weights 1 it is eq. (3), and shares its analysis with [`Smoother::tikhonov`].
+    ///
+    /// # Errors
+    /// As [`Smoother::interpolate`]; `LengthMismatch` and `InvalidWeight` for the weights.
+    pub fn least_squares(&mut self, values: &[f64], options: &LeastSquaresOptions<'_>) -> Result<Smoothed> {
+        self.least_squares_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::least_squares`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::least_squares`].
+    pub fn least_squares_with_progress(
+        &mut self,
+        values: &[f64],
+        options: &LeastSquaresOptions<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        least_squares::run(self, values, options, progress)
+    }
+
+    /// The vertices that constraints come to, ascending, stars included.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`.
+    pub fn constrained_vertices(
+        &self,
+        values: &[f64],
+        channels: usize,
+        constraints: &Constraints<'_>,
+    ) -> Result<Vec<u32>> {
+        let channels = Channels::new(self, values, channels)?;
+        Ok(ConstraintSet::new(self, &channels, constraints)?.vertices)
+    }
+
+    fn reach(&self) -> &Reach {
+        &self.reach
+    }
+
+    /// How systems are to be solved; bounds are the same for all channels.
+    fn manner(&self, is_first: bool) -> Manner {
+        Manner {
+            choice: self.options.solver,
+            precision: self.options.precision,
+            symmetric: self.options.weights.is_symmetric(),
+            bounds: self.options.bounds && is_first,
+        }
+    }
+
+    /// No two factors are kept: each can take most of the memory. Analyses stay.
+    fn drop_factors(&mut self) {
+        self.full.iter_mut().for_each(FullSystem::drop_factor);
+        self.partial.iter_mut().for_each(FullSystem::drop_factor);
+        self.reduced.iter_mut().for_each(ReducedSystem::drop_factor);
+    }
+
+    fn take_full_system(&mut self) -> Result<FullSystem> {
+        let known = self.full.take();
+        self.drop_factors();
+        match known {
+            Some(system) => Ok(system),
+            None => FullSystem::new(&self.mesh, &self.laplacian, self.options.operator, self.reach.active().to_vec()),
+        }
+    }
+
+    fn take_partial_system(&mut self, left_out: &LeftOut) -> Result<FullSystem> {
+        let unknowns = left_out.remaining(&self.reach);
+        let known = self.partial.take();
+        self.drop_factors();
+        match known.filter(|system| system.unknowns() == unknowns) {
+            Some(system) => Ok(system),
+            None => FullSystem::new(&self.mesh, &self.laplacian, self.options.operator, unknowns),
+        }
+    }
+
+    fn take_reduced_system(&mut self, energy: Energy, free: Vec<u32>) -> Result<ReducedSystem> {
+        let known = self.reduced.take();
+        self.drop_factors();
+        match known.filter(|system| system.is_for(energy, &free)) {
+            Some(system) => Ok(system),
+            None => {
+                let symmetric = self.options.weights.is_symmetric();
+                ReducedSystem::new(&self.mesh, &self.laplacian, self.options.operator, symmetric, energy, free)
+            }
+        }
     }
 }

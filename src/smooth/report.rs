@@ -2,13 +2,16 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::system::{Solution, Solved};
-use super::tikhonov::{Channel, Metric, TikhonovOptions};
-use super::{Operator, Smoother};
+use super::Smoother;
+use super::channels::Channel;
+use super::constraints::ConstraintSet;
+use super::maximum_principle::MaximumPrinciple;
+use super::system::{Solution, Solved, difference};
 use crate::error::{FieldError, Result};
-use crate::field::{CriticalCounts, DeltaOptions, ValueRange, VertexOrder, critical_points};
-use crate::mesh::LinkKind;
-use crate::solve::{norm, product, quadratic_form};
+use crate::field::{
+    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, VertexOrder, critical_points,
+};
+use crate::solve::{norm, product};
 
 /// Smoothed values and their reports.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,9 +28,9 @@ pub struct Smoothed {
 pub struct SmoothReport {
     /// Name of the method.
     pub method: &'static str,
-    /// The equation of \[Patane09\] solved, `"fem"` for the finite-element operator.
+    /// The equation of \[Patane09\] solved, `"fem"` for the finite-element operator, or the reference of a filter.
     pub equation: &'static str,
-    /// The trade-off used.
+    /// The trade-off used; `None` where there is none.
     pub epsilon: Option<f64>,
     /// Number of constrained vertices.
     pub constraint_count: usize,
@@ -39,7 +42,7 @@ pub struct SmoothReport {
     pub l_infinity: f64,
     /// ‖x − f‖₂.
     pub l2: f64,
-    /// ‖x − f‖_B in the metric used.
+    /// ‖x − f‖_B in the metric used: for least squares (Σ w(x − f)²)^½ over the constrained vertices with their weights w.
     pub metric_norm: f64,
     /// ‖Lx‖₂.
     pub laplacian_norm: f64,
@@ -47,12 +50,17 @@ pub struct SmoothReport {
     pub sobolev_before: f64,
     /// xᵀLx.
     pub sobolev_after: f64,
-    /// Constrained critical points whose type survived; `None` without constraints.
+    /// Critical points of the input among the feature points, without their stars; `None` without constraints.
+    pub constrained_critical_points: Option<usize>,
+    /// Those of them that are critical points of the same type and multiplicity still.
     pub preserved: Option<usize>,
     /// Extrema outside of the constrained set; `None` without constraints.
     pub free_extrema: Option<usize>,
-    /// Bound on ‖x − x_e‖₂/‖e‖₂ for a perturbation e of f; `None` unless asked for.
+    /// Bound on ‖x − x_e‖₂/‖e‖₂ for a perturbation e of f (of the constrained values, for interpolation): \[Patane09, sections
+    /// 4.2 and 4.3\]. `None` unless asked for, for the bilateral filter, which is not linear, and where rounding hides it.
     pub perturbation_factor: Option<f64>,
+    /// For harmonic interpolation.
+    pub maximum_principle: Option<MaximumPrinciple>,
     /// How the system was solved.
     pub solver: SolverReport,
 }
@@ -104,53 +112,98 @@ pub fn smoothness(laplacian: &CscMatrix<f64>, values: &[f64]) -> Result<Smoothne
 }
 
 fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
-    SmoothnessEnergies { sobolev: quadratic_form(laplacian, values), laplacian_norm: norm(&product(laplacian, values)) }
+    let image = product(laplacian, values);
+    let sobolev = image.iter().zip(values).map(|(a, b)| a * b).sum();
+    SmoothnessEnergies { sobolev, laplacian_norm: norm(&image) }
 }
 
-/// (value − min)/(max − min); zero for a constant, and at isolated vertices, which take no part in the range.
-pub(super) fn normalize(values: &[f64], kinds: &[LinkKind], range: ValueRange) -> Vec<f64> {
-    let length = range.length();
-    let counts = |kind: LinkKind| length > 0.0 && kind != LinkKind::Isolated;
-    values.iter().zip(kinds).map(|(v, &kind)| if counts(kind) { (v - range.min) / length } else { 0.0 }).collect()
+/// What only the method knows of a result.
+pub(super) struct Facts<'a> {
+    pub(super) method: &'static str,
+    pub(super) equation: &'static str,
+    pub(super) epsilon: Option<f64>,
+    pub(super) constraints: Option<&'a ConstraintSet>,
+    /// ‖x − f‖_B; nothing for the identity.
+    pub(super) metric_norm: Option<f64>,
+    pub(super) perturbation_factor: Option<f64>,
+    pub(super) maximum_principle: Option<MaximumPrinciple>,
+    pub(super) solver: SolverReport,
 }
 
-pub(super) fn tikhonov(
+/// Brings a normalised result back to the units of the input, and measures it. Only `changed` vertices can have new values:
+/// the others keep theirs to the last bit.
+pub(super) fn finish(
     smoother: &Smoother,
     channel: &Channel,
-    solution: &Solution,
-    smoothed: &[f64],
-    solved: &Solved,
-    options: &TikhonovOptions,
-) -> Result<SmoothReport> {
+    x: &[f64],
+    changed: &[u32],
+    facts: Facts<'_>,
+) -> Result<(Vec<f64>, SmoothReport)> {
     let f = &channel.normalized;
-    let x: Vec<f64> = solution.values.iter().zip(f).map(|(x, &f)| x.unwrap_or(f)).collect();
-    let difference: Vec<f64> = x.iter().zip(f).map(|(x, f)| x - f).collect();
-    let before = energies(&smoother.laplacian, f);
-    let after = energies(&smoother.laplacian, &x);
-    let counts = |values: &[f64]| -> Result<CriticalCounts> {
-        Ok(critical_points(&smoother.mesh, values, &DeltaOptions::default())?.counts)
-    };
-    Ok(SmoothReport {
-        method: "tikhonov",
-        equation: match (smoother.options.operator, options.metric) {
-            (Operator::Fem, _) => "fem",
-            (Operator::Paper, Metric::Identity) => "(3)",
-            (Operator::Paper, _) => "(5)",
-        },
-        epsilon: Some(options.epsilon),
-        constraint_count: 0,
-        before: counts(&channel.values)?,
-        after: counts(smoothed)?,
+    let mut smoothed = channel.values.clone();
+    for &v in changed {
+        smoothed[v as usize] = channel.denormalized(x[v as usize]);
+    }
+    let difference = difference(x, f);
+    let energies_before = energies(&smoother.laplacian, f);
+    let energies_after = energies(&smoother.laplacian, x);
+    let before = critical_points(&smoother.mesh, &channel.values, &DeltaOptions::default())?;
+    let after = critical_points(&smoother.mesh, &smoothed, &DeltaOptions::default())?;
+    let kept = facts.constraints.map(|set| Kept::new(set, &before, &after));
+    let l2 = norm(&difference);
+    let report = SmoothReport {
+        method: facts.method,
+        equation: facts.equation,
+        epsilon: facts.epsilon,
+        constraint_count: facts.constraints.map_or(0, |set| set.vertices.len()),
+        before: before.counts,
+        after: after.counts,
         l_infinity: difference.iter().fold(0.0, |max, d| if d.abs() > max { d.abs() } else { max }),
-        l2: norm(&difference),
-        metric_norm: solution.metric_norm,
-        laplacian_norm: after.laplacian_norm,
-        sobolev_before: before.sobolev,
-        sobolev_after: after.sobolev,
-        preserved: None,
-        free_extrema: None,
-        perturbation_factor: None,
-        solver: SolverReport {
+        l2,
+        metric_norm: facts.metric_norm.unwrap_or(l2),
+        laplacian_norm: energies_after.laplacian_norm,
+        sobolev_before: energies_before.sobolev,
+        sobolev_after: energies_after.sobolev,
+        constrained_critical_points: kept.as_ref().map(|kept| kept.constrained),
+        preserved: kept.as_ref().map(|kept| kept.preserved),
+        free_extrema: kept.as_ref().map(|kept| kept.free_extrema),
+        perturbation_factor: facts.perturbation_factor,
+        maximum_principle: facts.maximum_principle,
+        solver: facts.solver,
+    };
+    Ok((smoothed, report))
+}
+
+/// What became of critical points under constraints.
+struct Kept {
+    constrained: usize,
+    preserved: usize,
+    free_extrema: usize,
+}
+
+impl Kept {
+    fn new(set: &ConstraintSet, before: &CriticalPoints, after: &CriticalPoints) -> Self {
+        let is_feature = |vertex: u32| set.features.binary_search(&vertex).is_ok();
+        let (mut constrained, mut preserved) = (0, 0);
+        for point in before.points.iter().filter(|point| is_feature(point.vertex)) {
+            constrained += 1;
+            let place = after.points.binary_search_by_key(&point.vertex, |other| other.vertex);
+            preserved += usize::from(place.is_ok_and(|place| {
+                let other = &after.points[place];
+                (other.kind, other.multiplicity) == (point.kind, point.multiplicity)
+            }));
+        }
+        let is_free = |point: &&CriticalPoint| {
+            point.kind != CriticalKind::Saddle && set.vertices.binary_search(&point.vertex).is_err()
+        };
+        Self { constrained, preserved, free_extrema: after.points.iter().filter(is_free).count() }
+    }
+}
+
+impl SolverReport {
+    /// Of one channel.
+    pub(super) fn new(solved: &Solved, solution: &Solution) -> Self {
+        Self {
             route: solved.route,
             precision: solved.precision,
             unknowns: solved.unknowns,
@@ -158,6 +211,19 @@ pub(super) fn tikhonov(
             relative_residual: solution.relative_residual,
             refinement_steps: solution.refinement_steps,
             iterations: solution.iterations,
-        },
-    })
+        }
+    }
+
+    /// Of a method that solves no system, or of one where there was nothing to solve.
+    pub(super) fn none(iterations: usize) -> Self {
+        Self {
+            route: "none",
+            precision: "double",
+            unknowns: 0,
+            factor_nonzeros: 0,
+            relative_residual: 0.0,
+            refinement_steps: 0,
+            iterations,
+        }
+    }
 }

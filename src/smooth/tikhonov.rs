@@ -2,11 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use super::report::{self, Smoothed};
-use super::system::TikhonovSystem;
-use super::{Operator, Phase, Progress, Smoother};
-use crate::error::{FieldError, OptionError, Result};
-use crate::field::{ValueRange, value_range};
+use super::channels::Channels;
+use super::regularized::{self, Regularization};
+use super::report::Smoothed;
+use super::system::Attraction;
+use super::{Operator, Progress, Smoother};
+use crate::error::{OptionError, Result};
 use crate::operators::MassScale;
 
 /// The matrix B that measures ‖x − f‖.
@@ -61,12 +62,10 @@ pub(super) fn run(
     options: &TikhonovOptions,
     progress: Progress<'_>,
 ) -> Result<Smoothed> {
-    if !(options.epsilon.is_finite() && options.epsilon > 0.0) {
-        let expected = "a positive finite number".to_owned();
-        return Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected }.into());
-    }
+    check_epsilon(options.epsilon)?;
     let defaults = TikhonovOptions::default();
-    if smoother.options.operator == Operator::Fem {
+    let is_fem = smoother.options.operator == Operator::Fem;
+    if is_fem {
         for (option, differs) in
             [("metric", options.metric != defaults.metric), ("massScale", options.mass_scale != defaults.mass_scale)]
         {
@@ -76,73 +75,27 @@ pub(super) fn run(
             }
         }
     }
-    let ranges = ranges(smoother, values, options.channels)?;
-    let mut interleaved = values.to_vec();
-    let mut reports = Vec::with_capacity(options.channels);
-    // A few at a time: any number of channels takes the memory of so many.
-    for first in (0..options.channels).step_by(TOGETHER) {
-        let channels: Vec<Channel> = (first..options.channels.min(first + TOGETHER))
-            .map(|c| Channel::new(smoother, column(values, c, options.channels), ranges[c]))
-            .collect();
-        let mut system = match smoother.tikhonov.take() {
-            Some(system) => system,
-            None => TikhonovSystem::new(&smoother.mesh, &smoother.laplacian, smoother.options.operator)?,
-        };
-        let solved = system.solve(&smoother.mesh, &channels, options, &smoother.options, progress);
-        // Kept after an error too: the analysis stays valid.
-        smoother.tikhonov = Some(system);
-        let solved = solved?;
-        progress(Phase::Report, 0.95);
-        for (c, (channel, solution)) in (first..).zip(channels.iter().zip(&solved.solutions)) {
-            let smoothed: Vec<f64> = solution
-                .values
-                .iter()
-                .zip(&channel.values)
-                .map(|(x, &original)| x.map_or(original, |x| channel.range.min + channel.range.length() * x))
-                .collect();
-            for (vertex, &value) in smoothed.iter().enumerate() {
-                interleaved[vertex * options.channels + c] = value;
-            }
-            reports.push(report::tikhonov(smoother, channel, solution, &smoothed, &solved, options)?);
-        }
-    }
-    progress(Phase::Report, 1.0);
-    Ok(Smoothed { values: interleaved, reports })
+    let channels = Channels::new(smoother, values, options.channels)?;
+    let attraction = match is_fem {
+        true => Attraction::Metric(Metric::Lumped, MassScale::Raw),
+        false => Attraction::Metric(options.metric, options.mass_scale),
+    };
+    let equation = match (is_fem, options.metric) {
+        (true, _) => "fem",
+        (false, Metric::Identity) => "(3)",
+        (false, _) => "(5)",
+    };
+    let request =
+        Regularization { method: "tikhonov", equation, epsilon: options.epsilon, attraction, constraints: None };
+    regularized::run(smoother, &channels, &request, progress)
 }
 
-/// Channels that are solved for at once: as many as a factor in double precision takes together.
-const TOGETHER: usize = 4;
-
-/// One channel of the input.
-pub(super) struct Channel {
-    pub(super) values: Vec<f64>,
-    pub(super) range: ValueRange,
-    /// (value − min)/(max − min); zero for a constant.
-    pub(super) normalized: Vec<f64>,
-}
-
-impl Channel {
-    fn new(smoother: &Smoother, values: Vec<f64>, range: ValueRange) -> Self {
-        let normalized = report::normalize(&values, smoother.mesh.connectivity().link_kinds(), range);
-        Self { values, range, normalized }
+/// # Errors
+/// `InvalidOption`.
+pub(super) fn check_epsilon(epsilon: f64) -> Result<(), OptionError> {
+    if epsilon.is_finite() && epsilon > 0.0 {
+        return Ok(());
     }
-}
-
-/// One channel of interleaved values.
-fn column(values: &[f64], channel: usize, channels: usize) -> Vec<f64> {
-    values.iter().skip(channel).step_by(channels).copied().collect()
-}
-
-/// The range of every channel, once all of them are known to be valid.
-fn ranges(smoother: &Smoother, values: &[f64], channels: usize) -> Result<Vec<ValueRange>> {
-    let n = smoother.mesh.vertex_count();
-    if channels == 0 {
-        let expected = "a positive integer".to_owned();
-        return Err(OptionError::InvalidOption { option: "channels".to_owned(), expected }.into());
-    }
-    if n.checked_mul(channels) != Some(values.len()) {
-        let expected = n.saturating_mul(channels);
-        return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
-    }
-    (0..channels).map(|c| Ok(value_range(smoother.mesh.connectivity(), &column(values, c, channels))?)).collect()
+    let expected = "a positive finite number".to_owned();
+    Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected })
 }

@@ -174,6 +174,26 @@ pub fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
     }
 }
 
+/// The columns that `kept` lists, with all their rows.
+///
+/// # Panics
+/// Where an id in `kept` is not below the number of columns.
+#[must_use]
+#[inline(never)]
+pub fn columns(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
+    let mut offsets = vec![0];
+    let (mut rows, mut values) = (Vec::new(), Vec::new());
+    for &j in kept {
+        let column = matrix.col(j as usize);
+        rows.extend_from_slice(column.row_indices());
+        values.extend_from_slice(column.values());
+        offsets.push(rows.len());
+    }
+    // The columns are valid as they were.
+    CscMatrix::try_from_csc_data(matrix.nrows(), kept.len(), offsets, rows, values)
+        .unwrap_or_else(|_| CscMatrix::zeros(matrix.nrows(), kept.len()))
+}
+
 /// The rows and columns of a square matrix that `kept` lists, ascending.
 ///
 /// # Panics

@@ -22,7 +22,7 @@ mod unit;
 
 pub use cg::{CgInfo, CgOptions, conjugate_gradient};
 pub use cholesky::{CholeskyAnalysis, CholeskyFactor};
-pub use matrix::{gram, norm, product, quadratic_form, relative_residual, submatrix, transposed_product};
+pub use matrix::{columns, gram, norm, product, quadratic_form, relative_residual, submatrix, transposed_product};
 pub use multigrid::Multigrid;
 pub use ordering::{Permutation, minimum_degree, nested_dissection};
 pub use preconditioner::{IncompleteCholesky, Jacobi, Preconditioner};

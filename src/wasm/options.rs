@@ -217,6 +217,7 @@ impl Options {
             operator: self.operator()?,
             solver: choose("solver", self.solver.as_ref(), &solvers)?,
             precision: choose("precision", self.precision.as_ref(), &precisions)?,
+            bounds: self.bounds.unwrap_or_default(),
         })
     }
 

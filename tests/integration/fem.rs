@@ -151,7 +151,7 @@ fn options_that_mean_nothing_are_refused() {
     for weights in ALL_WEIGHTS {
         for solver in [SolverChoice::Auto, SolverChoice::ConjugateGradient] {
             for precision in [Precision::Double, Precision::Single] {
-                let options = SmootherOptions { weights, operator: Operator::Fem, solver, precision };
+                let options = SmootherOptions { weights, operator: Operator::Fem, solver, precision, bounds: false };
                 let made = Smoother::new(&mesh, options).map(|_| ()).map_err(|e| (e.code(), e.to_string()));
                 if weights == LaplacianWeights::Cotangent {
                     assert_eq!(made, Ok(()));

@@ -105,7 +105,7 @@ fn combinations() -> Vec<SmootherOptions> {
             for solver in SOLVERS {
                 for precision in PRECISIONS {
                     if operator == Operator::Paper || weights == LaplacianWeights::Cotangent {
-                        all.push(SmootherOptions { weights, operator, solver, precision });
+                        all.push(SmootherOptions { weights, operator, solver, precision, bounds: false });
                     }
                 }
             }

@@ -8,15 +8,19 @@
 //! | `cgMultigrid` | a symmetric L, when no factor fits | iterations in little memory |
 //! | `cgJacobi` | everything | little memory, many iterations for small ε |
 
-use super::complex::ComplexRoute;
-use super::iterative;
-use super::real::RealRoute;
-use super::refine::Iterate;
-use super::system::{Mass, Problem};
-use super::tikhonov::Metric;
+mod complex;
+mod eigenvalue;
+mod factors;
+mod iterative;
+mod real;
+mod refine;
+
+use super::system::{Inner, Load, Manner, Mass, Order, Problem, Pull};
 use super::{Phase, Precision, Progress, SolverChoice};
 use crate::error::SolveError;
-use crate::operators::MassScale;
+use complex::ComplexRoute;
+use real::RealRoute;
+use refine::Iterate;
 
 /// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL, whose cost
 /// grows faster: estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
@@ -25,17 +29,16 @@ const LARGE: usize = 400_000;
 const DOUBLE: f64 = 1e-16;
 const SINGLE: f64 = 1e-13;
 
-/// What a factor belongs to: ε and the mass matrix.
-pub(super) type Key = (f64, Metric, MassScale);
+/// What a factor belongs to: ε, and which of the matrices B.
+pub(super) type Key = (f64, u32);
 
 /// One call.
 pub(super) struct Task<'a> {
     pub(super) problem: Problem<'a>,
     pub(super) key: Key,
-    /// One per channel, on the unknowns.
-    pub(super) fields: &'a [Vec<f64>],
-    pub(super) choice: SolverChoice,
-    pub(super) precision: Precision,
+    /// One per channel.
+    pub(super) loads: &'a [Load],
+    pub(super) manner: Manner,
 }
 
 /// Solutions, one per channel, and where they come from.
@@ -44,6 +47,8 @@ pub(super) struct Answer {
     pub(super) route: &'static str,
     pub(super) precision: &'static str,
     pub(super) factor_nonzeros: u64,
+    /// A lower bound of the smallest eigenvalue of the system's matrix, where it was asked for and could be found.
+    pub(super) smallest_eigenvalue: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,41 +69,42 @@ pub(super) struct Routes {
 }
 
 impl Task<'_> {
-    /// Whether the complex factor solves the system itself: LᵀWL + εB is (L + i√ε·B) B⁻¹ (L − i√ε·B).
-    pub(super) fn splits(&self) -> bool {
-        let matching = self.problem.weights.is_some() || matches!(self.problem.mass, Mass::Identity);
-        self.problem.symmetric && matching
-    }
-
     /// The routes to try, the best one first.
     fn candidates(&self) -> &'static [Route] {
         let large = self.problem.unknowns() >= LARGE;
-        match (self.choice, self.splits()) {
+        // Where the product (L + iD) W (L − iD) is near the system, if not the system itself.
+        let paired = self.problem.pull.is_some() && self.problem.inner.is_some();
+        match (self.manner.choice, self.problem.splits) {
             (SolverChoice::ConjugateGradient, _) => &[Route::Iterative],
             (SolverChoice::Cholesky, true) => &[Route::ComplexCholesky],
             (SolverChoice::Cholesky, false) => &[Route::Cholesky],
             (SolverChoice::Auto, true) => &[Route::ComplexCholesky, Route::Iterative],
-            (SolverChoice::Auto, false) if !self.problem.symmetric => &[Route::Cholesky, Route::Iterative],
+            (SolverChoice::Auto, false) if !paired || self.problem.weights.is_some() => {
+                &[Route::Cholesky, Route::Iterative]
+            }
             // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
-            (SolverChoice::Auto, false) if large || self.precision == Precision::Single => {
+            (SolverChoice::Auto, false) if large || self.manner.precision == Precision::Single => {
                 &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative]
             }
             (SolverChoice::Auto, false) => &[Route::Cholesky, Route::CgComplexCholesky, Route::Iterative],
         }
     }
 
-    /// The diagonal D of the second-order operator that the routes for a symmetric L are made from: √ε·B where LᵀWL + εB splits,
-    /// else √(ε·m) with the lumped masses m.
+    /// The diagonal D of the second-order operator that the routes for a symmetric L are made from, DWD ≈ εB: √ε·B where the
+    /// system splits, else √(ε·b/w) with the row sums b of B.
     pub(super) fn shift(&self) -> Vec<f64> {
-        let root = self.key.0.sqrt();
         let n = self.problem.unknowns();
-        match self.problem.mass {
-            Mass::Identity => vec![root; n],
-            Mass::Diagonal(masses) if self.splits() => masses.iter().map(|m| root * m).collect(),
-            Mass::Diagonal(masses) => masses.iter().map(|m| root * m.sqrt()).collect(),
+        let Some(Pull { mass, .. }) = self.problem.pull else { return vec![0.0; n] };
+        let root = self.key.0.sqrt();
+        let sums = match mass {
+            Mass::Identity => return vec![root; n],
+            Mass::Diagonal(masses) if self.problem.splits => return masses.iter().map(|m| root * m).collect(),
+            Mass::Diagonal(masses) => masses.clone(),
             // The rows of the Galerkin mass matrix sum to the lumped masses.
-            mass @ Mass::Matrix(_) => mass.times(&vec![1.0; n]).iter().map(|m| root * m.sqrt()).collect(),
-        }
+            Mass::Matrix(_) => mass.times(&vec![1.0; n]),
+        };
+        let weight = |i: usize| self.problem.weights.map_or(1.0, |weights| weights[i]);
+        sums.iter().enumerate().map(|(i, b)| root * (b / weight(i)).sqrt()).collect()
     }
 
     /// Refines to the accuracy of the precision.
@@ -112,8 +118,14 @@ impl Routes {
     /// the one reported.
     pub(super) fn solve(&mut self, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
         if task.problem.unknowns() == 0 {
-            let iterates = vec![Iterate::default(); task.fields.len()];
-            return Ok(Answer { iterates, route: "none", precision: "double", factor_nonzeros: 0 });
+            let iterates = vec![Iterate::default(); task.loads.len()];
+            return Ok(Answer {
+                iterates,
+                route: "none",
+                precision: "double",
+                factor_nonzeros: 0,
+                smallest_eigenvalue: None,
+            });
         }
         // The same system again, with its factor at hand: what failed the last time would fail again.
         if let Some((key, route, precision)) = self.last.take().filter(|(key, ..)| *key == task.key) {
@@ -145,13 +157,19 @@ impl Routes {
         Err(first_failure.unwrap_or(SolveError::PatternMismatch {}))
     }
 
+    /// Gives the memory of the last factors back.
+    pub(super) fn drop_factors(&mut self) {
+        self.complex.iter_mut().for_each(ComplexRoute::drop_factor);
+        self.real.iter_mut().for_each(RealRoute::drop_factor);
+    }
+
     fn by(&mut self, route: Route, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
         if route == Route::Iterative {
             *self = Self::default();
             progress(Phase::Solve, 0.1);
             return iterative::solve(task);
         }
-        if task.precision == Precision::Single {
+        if task.manner.precision == Precision::Single {
             match self.factored(route, task, Precision::Single, progress) {
                 Ok(answer) => return Ok(answer),
                 // Single precision was not enough for this matrix.

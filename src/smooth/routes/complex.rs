@@ -10,9 +10,9 @@ use nalgebra_sparse::CscMatrix;
 use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
-use super::routes::{Answer, Task};
-use super::{Phase, Precision, Progress};
+use super::{Answer, Task};
 use crate::error::SolveError;
+use crate::smooth::{Phase, Precision, Progress};
 use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
 
 /// The analysis of L, and the last factor of L + iD.
@@ -25,7 +25,7 @@ type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 
 impl ComplexRoute {
     pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
-        let pattern = task.problem.laplacian.pattern().clone();
+        let pattern = task.problem.matrix.pattern().clone();
         let analysis = CholeskyAnalysis::new(pattern)?;
         Ok(Self { factors: Factors::new(analysis) })
     }
@@ -42,15 +42,17 @@ impl ComplexRoute {
         progress: Progress<'_>,
     ) -> Result<Answer, SolveError> {
         let shift = task.shift();
-        let values = |_: &CholeskyAnalysis| shifted(task.problem.laplacian, &shift);
+        let values = |_: &CholeskyAnalysis| shifted(task.problem.matrix, &shift);
         let factor = self.factors.take(task.key, precision, &values, progress)?;
         progress(Phase::Solve, 0.8);
-        let (iterates, route) = if task.splits() {
-            (split(task, &factor, &shift, task.tolerance(precision))?, "complexCholesky")
-        } else {
-            (iterative::refined(task, &Product { factor: &factor, size: shift.len() })?, "cgComplexCholesky")
-        };
-        Ok(self.factors.answer(task.key, factor, iterates, route))
+        if task.problem.splits {
+            let iterates = split(task, &factor, &shift, task.tolerance(precision))?;
+            return Ok(self.factors.answer(task.key, factor, iterates, "complexCholesky", None));
+        }
+        let product = Product { factor: &factor, size: shift.len() };
+        let iterates = iterative::refined(task, &product)?;
+        let eigenvalue = iterative::eigenvalue(task, &product)?;
+        Ok(self.factors.answer(task.key, factor, iterates, "cgComplexCholesky", eigenvalue))
     }
 }
 
@@ -62,10 +64,10 @@ fn shifted(laplacian: &CscMatrix<f64>, shift: &[f64]) -> Vec<Complex<f64>> {
 
 /// x = −Im z with (L + iD) z = D f, refined in complex numbers; z is kept as its real parts, then its imaginary parts.
 fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64) -> Result<Vec<Iterate>, SolveError> {
-    let (laplacian, n) = (task.problem.laplacian, shift.len());
+    let (laplacian, n) = (task.problem.matrix, shift.len());
     let residual = |c: usize, z: &[f64]| {
         let (re, im) = z.split_at(n);
-        let f: &[f64] = &task.fields[c];
+        let f: &[f64] = &task.loads[c].field;
         let real = transposed_product(laplacian, re);
         let imaginary = transposed_product(laplacian, im);
         let real = (0..n).map(|i| shift[i] * (f[i] + im[i]) - real[i]);
@@ -73,7 +75,7 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
         real.chain(imaginary).collect()
     };
     let mut iterates = refine(Refinement {
-        count: task.fields.len(),
+        count: task.loads.len(),
         length: 2 * n,
         tolerance,
         residual: &residual,

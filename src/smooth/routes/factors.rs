@@ -1,9 +1,9 @@
 //! Factors that are kept from one call to the next.
 
 use super::refine::Iterate;
-use super::routes::{Answer, Key};
-use super::{Phase, Precision, Progress};
+use super::{Answer, Key};
 use crate::error::SolveError;
+use crate::smooth::{Phase, Precision, Progress};
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
 
 /// A factor in double or single precision.
@@ -83,10 +83,11 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         factor: Factor<D, S>,
         iterates: Vec<Iterate>,
         route: &'static str,
+        smallest_eigenvalue: Option<f64>,
     ) -> Answer {
         let precision = if factor.precision() == Precision::Single { "single" } else { "double" };
         self.last = Some((key, factor));
-        Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros }
+        Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros, smallest_eigenvalue }
     }
 
     /// Gives the memory of the last factor back.

@@ -1,10 +1,10 @@
 //! The routes without a factor of the system: conjugate gradients with the matrix in factored form.
 
+use super::eigenvalue::smallest_eigenvalue;
 use super::refine::{Iterate, Refinement, refine};
-use super::routes::{Answer, Task};
-use super::system::Mass;
+use super::{Answer, Inner, Order, Task};
 use crate::error::SolveError;
-use crate::solve::{CgOptions, Jacobi, Preconditioner, SquaredSum, conjugate_gradient};
+use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
 
 /// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
 /// refinement can solve; refinement makes up the rest.
@@ -20,29 +20,63 @@ const TOLERANCE: f64 = 1e-16;
 
 /// Solves with the best preconditioner that needs little memory.
 pub(super) fn solve(task: &Task<'_>) -> Result<Answer, SolveError> {
-    let answer = |iterates, route| Answer { iterates, route, precision: "double", factor_nonzeros: 0 };
-    if task.problem.symmetric
-        && let Ok(mut squared) = squared_sum(task)
-    {
-        let mut outcome = refined(task, &squared);
-        if matches!(outcome, Err(SolveError::IndefinitePreconditioner { .. } | SolveError::NotConverged { .. })) {
-            // Rows of needle triangles: a small residual of the inner systems is not yet a solution.
-            squared.set_tolerance(TIGHT);
-            outcome = refined(task, &squared);
-        }
-        return Ok(answer(outcome?, "cgMultigrid"));
+    if let Some(outcome) = by_multigrid(task) {
+        return outcome;
     }
     let jacobi = Jacobi::new(&task.problem.diagonal())?;
     let iterates = refined_within(task, &jacobi, CgOptions::default().max_iterations)?;
-    Ok(answer(iterates, "cgJacobi"))
+    answer(task, &jacobi, iterates, "cgJacobi")
 }
 
-fn squared_sum(task: &Task<'_>) -> Result<SquaredSum, SolveError> {
-    let squared = SquaredSum::new(task.problem.laplacian, &task.shift(), SquaredSum::TOLERANCE)?;
-    Ok(match (task.problem.weights, task.problem.mass) {
-        // W is the inverse of the masses.
-        (Some(_), Mass::Diagonal(masses)) => squared.between(masses),
-        _ => squared,
+fn answer(
+    task: &Task<'_>,
+    preconditioner: &dyn Preconditioner,
+    iterates: Vec<Iterate>,
+    route: &'static str,
+) -> Result<Answer, SolveError> {
+    let smallest_eigenvalue = eigenvalue(task, preconditioner)?;
+    Ok(Answer { iterates, route, precision: "double", factor_nonzeros: 0, smallest_eigenvalue })
+}
+
+/// With multigrid for the matrix, or twice for its square root; nothing where there is no multigrid for it.
+fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
+    const ROUTE: &str = "cgMultigrid";
+    let inner = task.problem.inner?;
+    if task.problem.order == Order::First {
+        let multigrid = Multigrid::new(inner.matrix).ok()?;
+        return Some(refined(task, &multigrid).and_then(|iterates| answer(task, &multigrid, iterates, ROUTE)));
+    }
+    let mut squared = squared_sum(task, inner).ok()?;
+    let mut outcome = refined(task, &squared);
+    if matches!(outcome, Err(SolveError::IndefinitePreconditioner { .. } | SolveError::NotConverged { .. })) {
+        // Rows of needle triangles: a small residual of the inner systems is not yet a solution.
+        squared.set_tolerance(TIGHT);
+        outcome = refined(task, &squared);
+    }
+    Some(outcome.and_then(|iterates| answer(task, &squared, iterates, ROUTE)))
+}
+
+fn squared_sum(task: &Task<'_>, inner: Inner<'_>) -> Result<SquaredSum, SolveError> {
+    let squared = SquaredSum::new(inner.matrix, &task.shift(), SquaredSum::TOLERANCE)?;
+    Ok(match inner.weights {
+        Some(weights) => squared.between(&weights.iter().map(|w| w.recip()).collect::<Vec<f64>>()),
+        None => squared,
+    })
+}
+
+/// A lower bound of the smallest eigenvalue, if it is wanted.
+pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Result<Option<f64>, SolveError> {
+    if !task.manner.bounds {
+        return Ok(None);
+    }
+    let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
+    smallest_eigenvalue(&task.problem, &mut |b| {
+        let mut x = vec![0.0; b.len()];
+        match conjugate_gradient(&mut |x| task.problem.apply(x), preconditioner, b, &mut x, &options) {
+            // Rough solutions only take more steps.
+            Ok(_) | Err(SolveError::NotConverged { .. }) => Ok(x),
+            Err(error) => Err(error),
+        }
     })
 }
 
@@ -60,10 +94,10 @@ fn refined_within(
     let options = CgOptions { tolerance: CG_TOLERANCE, max_iterations, ..CgOptions::default() };
     let mut apply = |x: &[f64]| task.problem.apply(x);
     refine(Refinement {
-        count: task.fields.len(),
+        count: task.loads.len(),
         length: n,
         tolerance: TOLERANCE,
-        residual: &|c, x| task.problem.residual(&task.fields[c], x),
+        residual: &|c, x| task.problem.residual(&task.loads[c], x),
         solve: &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));

@@ -11,10 +11,10 @@ const ROUGH_ROUNDING: f64 = 1e-10;
 
 /// One solved right-hand side.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Iterate {
-    pub(super) x: Vec<f64>,
-    pub(super) refinement_steps: usize,
-    pub(super) iterations: usize,
+pub(in crate::smooth) struct Iterate {
+    pub(in crate::smooth) x: Vec<f64>,
+    pub(in crate::smooth) refinement_steps: usize,
+    pub(in crate::smooth) iterations: usize,
 }
 
 /// What [`refine`] works on.

@@ -1,0 +1,68 @@
+//! How far a result can move when the input does: ‖x − x_e‖₂ ≤ factor · ‖e‖₂ \[Patane09, sections 4.2 and 4.3\].
+//!
+//! Every method here is linear in the values, so the factor is a bound of a matrix's norm. Smallest eigenvalues are bounded from
+//! below, and norms of sparse matrices from above by their largest sums of rows and columns, so that the bounds are bounds.
+
+use nalgebra_sparse::CscMatrix;
+
+use super::system::Mass;
+
+/// Of (LᵀWL + εB) x = εBf with a positive definite B, given a lower bound of the matrix's smallest eigenvalue: ε‖B‖/λ, the
+/// bound of the paper, or √(‖B‖‖B⁻¹‖), since ‖x − x_e‖_B ≤ ‖e‖_B, whichever is less. For B = I it is 1 and attained by constants.
+pub(super) fn tikhonov(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue: Option<f64>) -> Option<f64> {
+    let (masses, share) = match mass {
+        Mass::Identity => return Some(1.0),
+        Mass::Diagonal(masses) => (masses.clone(), 1.0),
+        // Rows of the Galerkin matrix sum to the lumped masses, and a quarter of these is the least it can be: the matrix of
+        // one triangle has the eigenvalues |t|/12 · {1, 1, 4}, the lumped one |t|/12 · {4, 4, 4}.
+        Mass::Matrix(_) => (mass.times(&vec![1.0; unknowns]), 0.25),
+    };
+    let largest = masses.iter().fold(0.0_f64, |largest, &m| largest.max(m));
+    let smallest = share * masses.iter().fold(f64::INFINITY, |smallest, &m| smallest.min(m));
+    let by_condition = (largest / smallest).sqrt();
+    let by_eigenvalue = eigenvalue.map_or(f64::INFINITY, |eigenvalue| epsilon * largest / eigenvalue);
+    finite(by_condition.min(by_eigenvalue))
+}
+
+/// Of (LᵀWL + εΔ) x = εΔf: ε‖Δ‖/λ.
+pub(super) fn least_squares(mass: &Mass, epsilon: f64, eigenvalue: Option<f64>) -> Option<f64> {
+    let largest = match mass {
+        Mass::Diagonal(weights) => weights.iter().fold(0.0_f64, |largest, &w| largest.max(w)),
+        Mass::Identity | Mass::Matrix(_) => 1.0,
+    };
+    eigenvalue.and_then(|eigenvalue| finite(epsilon * largest / eigenvalue))
+}
+
+/// Of min ‖A_F g + A_I f_I‖ with the values f_I fixed: √(1 + (‖A_I‖/σ)²), where σ is the smallest singular value of A_F.
+pub(super) fn interpolation(fixed: f64, singular_value: Option<f64>) -> Option<f64> {
+    singular_value.and_then(|sigma| {
+        let ratio = fixed / sigma;
+        finite((1.0 + ratio * ratio).sqrt())
+    })
+}
+
+/// A bound of the norm of some columns, with a factor for each row: the root of the largest sum of a row times that of a column.
+pub(super) fn norm_of_columns(
+    matrix: &CscMatrix<f64>,
+    takes_column: &dyn Fn(usize) -> bool,
+    row_scale: &dyn Fn(usize) -> f64,
+) -> f64 {
+    let mut rows = vec![0.0_f64; matrix.nrows()];
+    let mut largest_column = 0.0_f64;
+    for (_, column) in matrix.col_iter().enumerate().filter(|(j, _)| takes_column(*j)) {
+        let mut sum = 0.0;
+        for (&row, value) in column.row_indices().iter().zip(column.values()) {
+            let size = value.abs() * row_scale(row);
+            rows[row] += size;
+            sum += size;
+        }
+        largest_column = largest_column.max(sum);
+    }
+    let largest_row = rows.iter().fold(0.0_f64, |largest, &sum| largest.max(sum));
+    (largest_row * largest_column).sqrt()
+}
+
+/// Vertices that no system reaches keep their values, or go to a mean: no factor is less than one.
+fn finite(factor: f64) -> Option<f64> {
+    factor.is_finite().then(|| factor.max(1.0))
+}

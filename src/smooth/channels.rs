@@ -1,0 +1,95 @@
+//! Fields with several values per vertex: taken apart, normalised, and put together again.
+
+use super::Smoother;
+use crate::error::{FieldError, OptionError, Result};
+use crate::field::{ValueRange, value_range};
+use crate::mesh::LinkKind;
+
+/// Channels that are solved for at once: as many as a factor in double precision takes together. Any number of channels
+/// takes the memory of so many.
+pub(super) const TOGETHER: usize = 4;
+
+/// One channel of the input.
+#[derive(Debug)]
+pub(super) struct Channel {
+    pub(super) values: Vec<f64>,
+    pub(super) range: ValueRange,
+    /// (value − min)/(max − min); zero for a constant, and at isolated vertices, which take no part in the range.
+    pub(super) normalized: Vec<f64>,
+}
+
+impl Channel {
+    fn new(smoother: &Smoother, values: Vec<f64>, range: ValueRange) -> Self {
+        let length = range.length();
+        let kinds = smoother.mesh.connectivity().link_kinds();
+        let counts = |kind: LinkKind| length > 0.0 && kind != LinkKind::Isolated;
+        let scaled = |(v, &kind): (&f64, &LinkKind)| if counts(kind) { (v - range.min) / length } else { 0.0 };
+        let normalized = values.iter().zip(kinds).map(scaled).collect();
+        Self { values, range, normalized }
+    }
+
+    /// Back in the units of the input.
+    pub(super) fn denormalized(&self, x: f64) -> f64 {
+        self.range.min + self.range.length() * x
+    }
+}
+
+/// All channels of a call, checked.
+#[derive(Debug)]
+pub(super) struct Channels<'a> {
+    interleaved: &'a [f64],
+    ranges: Vec<ValueRange>,
+}
+
+impl<'a> Channels<'a> {
+    /// # Errors
+    /// `InvalidOption` for no channels at all; `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+    pub(super) fn new(smoother: &Smoother, values: &'a [f64], channels: usize) -> Result<Self> {
+        let n = smoother.mesh.vertex_count();
+        if channels == 0 {
+            let expected = "a positive integer".to_owned();
+            return Err(OptionError::InvalidOption { option: "channels".to_owned(), expected }.into());
+        }
+        if n.checked_mul(channels) != Some(values.len()) {
+            let expected = n.saturating_mul(channels);
+            return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
+        }
+        let range = |c| Ok(value_range(smoother.mesh.connectivity(), &column(values, c, channels))?);
+        let ranges = (0..channels).map(range).collect::<Result<_>>()?;
+        Ok(Self { interleaved: values, ranges })
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.ranges.len()
+    }
+
+    /// The values of one channel.
+    pub(super) fn values(&self, channel: usize) -> Vec<f64> {
+        column(self.interleaved, channel, self.count())
+    }
+
+    /// A few channels at a time: the first one's number, and the channels.
+    pub(super) fn groups(&self, smoother: &Smoother) -> impl Iterator<Item = (usize, Vec<Channel>)> {
+        (0..self.count()).step_by(TOGETHER).map(move |first| {
+            let numbers = first..self.count().min(first + TOGETHER);
+            (first, numbers.map(|c| Channel::new(smoother, self.values(c), self.ranges[c])).collect())
+        })
+    }
+
+    /// The input, for results to be written over it.
+    pub(super) fn to_interleaved(&self) -> Vec<f64> {
+        self.interleaved.to_vec()
+    }
+
+    /// Writes one channel's values over the interleaved ones.
+    pub(super) fn write(&self, channel: usize, values: &[f64], interleaved: &mut [f64]) {
+        for (place, &value) in interleaved.iter_mut().skip(channel).step_by(self.count()).zip(values) {
+            *place = value;
+        }
+    }
+}
+
+/// One channel of interleaved values.
+fn column(values: &[f64], channel: usize, channels: usize) -> Vec<f64> {
+    values.iter().skip(channel).step_by(channels).copied().collect()
+}

@@ -1,0 +1,122 @@
+//! Which vertices are constrained, and what becomes of the components that have none.
+
+use super::Smoother;
+use super::channels::Channels;
+use super::system::Reach;
+use crate::error::{Result, SmoothError};
+use crate::field::{Features, feature_points, with_stars};
+
+/// What becomes of a component of the mesh without a constrained vertex, where the equations say nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Unconstrained {
+    /// An error with the component. The default.
+    #[default]
+    Error,
+    /// Its values stay.
+    Keep,
+    /// All its vertices get the mean of its values.
+    Mean,
+}
+
+/// Which vertices are constrained.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constraints<'a> {
+    /// The feature points. With several channels, those of all of them together.
+    pub features: Features<'a>,
+    /// Whether their 1-stars are constrained, too: what interpolation needs to keep critical points with their types.
+    pub stars: bool,
+    /// Components without a constrained vertex. Default an error.
+    pub unconstrained: Unconstrained,
+}
+
+/// The vertices that the rules came to.
+#[derive(Debug)]
+pub(super) struct ConstraintSet {
+    /// The feature points, without stars. Ascending.
+    pub(super) features: Vec<u32>,
+    /// The constrained vertices. Ascending.
+    pub(super) vertices: Vec<u32>,
+}
+
+impl ConstraintSet {
+    pub(super) fn new(smoother: &Smoother, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
+        let mut features = Vec::new();
+        for c in 0..channels.count() {
+            features.extend(feature_points(&smoother.mesh, &channels.values(c), &constraints.features)?);
+            if matches!(constraints.features, Features::Vertices(_)) {
+                break;
+            }
+        }
+        features.sort_unstable();
+        features.dedup();
+        let vertices =
+            if constraints.stars { with_stars(smoother.mesh.connectivity(), &features) } else { features.clone() };
+        Ok(Self { features, vertices })
+    }
+}
+
+/// The components that have no constrained vertex: their vertices are no unknowns.
+#[derive(Debug)]
+pub(super) struct LeftOut {
+    /// Per component.
+    is_left_out: Vec<bool>,
+    takes_mean: bool,
+}
+
+impl LeftOut {
+    /// # Errors
+    /// `Unconstrained` with the first such component, where that is an error.
+    pub(super) fn new(reach: &Reach, set: &ConstraintSet, unconstrained: Unconstrained) -> Result<Self, SmoothError> {
+        let mut is_left_out = vec![true; reach.first_vertices().len()];
+        for &v in &set.vertices {
+            if let Some(component) = reach.component(v) {
+                is_left_out[component] = false;
+            }
+        }
+        if unconstrained == Unconstrained::Error
+            && let Some(component) = is_left_out.iter().position(|&left_out| left_out)
+        {
+            return Err(SmoothError::Unconstrained { component, vertex: reach.first_vertices()[component] });
+        }
+        Ok(Self { is_left_out, takes_mean: unconstrained == Unconstrained::Mean })
+    }
+
+    /// Whether no component is left out.
+    pub(super) fn is_empty(&self) -> bool {
+        !self.is_left_out.contains(&true)
+    }
+
+    /// The vertices of components that are not left out.
+    pub(super) fn remaining(&self, reach: &Reach) -> Vec<u32> {
+        let remains = |v: u32| reach.component(v).is_some_and(|component| !self.is_left_out[component]);
+        reach.active().iter().copied().filter(|&v| remains(v)).collect()
+    }
+
+    /// Writes what becomes of the components left out into normalised values.
+    pub(super) fn write(&self, reach: &Reach, x: &mut [f64]) {
+        if !self.takes_mean || self.is_empty() {
+            return;
+        }
+        let mut sums = vec![(0.0, 0_u32); self.is_left_out.len()];
+        for &v in reach.active() {
+            if let Some(component) = reach.component(v) {
+                let (sum, count) = &mut sums[component];
+                *sum += x[v as usize];
+                *count += 1;
+            }
+        }
+        for &v in reach.active() {
+            if let Some(component) = reach.component(v)
+                && self.is_left_out[component]
+            {
+                let (sum, count) = sums[component];
+                x[v as usize] = sum / f64::from(count);
+            }
+        }
+    }
+
+    /// Whether a vertex gets another value than it had, though it is no unknown.
+    pub(super) fn moves(&self, reach: &Reach, vertex: u32) -> bool {
+        self.takes_mean && reach.component(vertex).is_some_and(|component| self.is_left_out[component])
+    }
+}
