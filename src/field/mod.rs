@@ -1,8 +1,9 @@
-//! Scalar fields on a mesh: order of the vertices, critical points and their hierarchy over δ, persistence, simplification, the
-//! Morse complex, level sets.
+//! Scalar fields on a mesh: order of the vertices, critical points and their hierarchy over δ, persistence, feature points,
+//! simplification, the Morse complex, level sets.
 
 mod critical;
 mod direction;
+mod features;
 mod forest;
 mod hierarchy;
 mod level;
@@ -20,6 +21,7 @@ pub use critical::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading,
     critical_points, largest_edge_difference,
 };
+pub use features::{Features, feature_points, with_stars};
 pub use hierarchy::{DeltaCurve, DeltaHierarchy, HierarchyPoint, delta_hierarchy};
 pub use level::{Bands, LevelSets, bands, evenly_spaced_levels, level_sets, saddle_levels};
 pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basins, morse_complex, morse_hierarchy};

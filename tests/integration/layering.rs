@@ -51,12 +51,13 @@ const SOLVER: [&[&str]; 11] = [
 ];
 
 /// The files and folders of `field` in groups, likewise.
-const FIELD: [&[&str]; 8] = [
+const FIELD: [&[&str]; 9] = [
     &["order", "sorting", "forest", "link"],
     &["direction", "critical", "steepest"],
     &["hierarchy", "saddles", "level"],
     &["merging"],
     &["persistence"],
+    &["features"],
     &["simplify"],
     &["morse"],
     &["mod"],

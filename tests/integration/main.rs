@@ -9,6 +9,7 @@ mod data;
 mod definite;
 mod exact;
 mod extremes;
+mod features;
 mod fem;
 mod hierarchy;
 mod io_malformed;

@@ -1,0 +1,95 @@
+//! Clusters of values by Lloyd's iterations on a line.
+
+use super::line::Line;
+use super::seeding::seeded;
+use crate::error::FieldError;
+use crate::field::sorting::{ascending_bits, sort_by_key};
+use crate::mesh::Connectivity;
+use crate::mesh::shapes::Random;
+
+/// So many bounds may be moved in all: Lloyd's iterations can be as many as the square of the clusters, and the last ones move
+/// hardly anything.
+const MOST_MOVES: usize = 2_000_000;
+/// So many iterations are done even so.
+const FEWEST_MOST_ITERATIONS: usize = 20;
+
+/// For each cluster of the values the vertex whose value is nearest to its mean, and of several the one with the smallest id.
+pub(super) fn representatives(
+    connectivity: &Connectivity,
+    values: &[f64],
+    clusters: usize,
+    seed: u64,
+) -> Result<Vec<u32>, FieldError> {
+    let line = Line::new(connectivity, values)?;
+    let ids = line.ids();
+    // Ids of equal values ascend, so the first of each value has the smallest.
+    let is_first = |i: usize| i == 0 || values[ids[i - 1] as usize] != values[ids[i] as usize];
+    let different = (0..ids.len()).filter(|&i| is_first(i)).count();
+    if clusters >= different {
+        return Ok((0..ids.len()).filter(|&i| is_first(i)).map(|i| ids[i]).collect());
+    }
+    let mut bounds = seeded(&line, clusters, &mut Random::new(seed));
+    for _ in 0..(MOST_MOVES / clusters).max(FEWEST_MOST_ITERATIONS) {
+        let mut next = moved(&line, &bounds);
+        if next.len() <= clusters {
+            next = split(&line, &next, clusters);
+        }
+        if next == bounds {
+            break;
+        }
+        bounds = next;
+    }
+    Ok(bounds.windows(2).map(|ends| nearest_to_mean(&line, ends[0], ends[1])).collect())
+}
+
+/// Where clusters begin, and where the last one ends, after each value went to the nearest mean, the lower one of two. Clusters
+/// that become empty drop out.
+fn moved(line: &Line, bounds: &[usize]) -> Vec<usize> {
+    let mut next = Vec::with_capacity(bounds.len());
+    next.push(0);
+    for ends in bounds.windows(3) {
+        let &[start, middle, end] = ends else { continue };
+        // (s/m + t/n) / 2, rounded down, as a place is an integer. Clusters are never empty.
+        let (m, n) = ((middle - start) as u128, (end - middle) as u128);
+        let half_way = (line.sum(start, middle) * n + line.sum(middle, end) * m) / (2 * m * n);
+        let bound = line.first_above(start, end, half_way as u64);
+        if bound > next[next.len() - 1] {
+            next.push(bound);
+        }
+    }
+    next.push(line.len());
+    next
+}
+
+/// Divides as many clusters at their means as are missing, those with the greatest sums of squares; none of which all places
+/// are equal. Sums decrease.
+fn split(line: &Line, bounds: &[usize], clusters: usize) -> Vec<usize> {
+    let missing = clusters + 1 - bounds.len();
+    let spreads: Vec<u128> =
+        bounds.windows(2).map(|ends| line.spread(ends[0], ends[1], line.mean(ends[0], ends[1]))).collect();
+    let mut greatest: Vec<u32> = (0..spreads.len() as u32).filter(|&i| spreads[i as usize] > 0).collect();
+    sort_by_key(&mut greatest, &|i| !ascending_bits(spreads[i as usize] as f64));
+    greatest.truncate(missing);
+    let mut divided = vec![false; spreads.len()];
+    greatest.iter().for_each(|&i| divided[i as usize] = true);
+    let mut next = Vec::with_capacity(clusters + 1);
+    for (i, ends) in bounds.windows(2).enumerate() {
+        next.push(ends[0]);
+        if divided[i] {
+            next.push(line.first_above(ends[0], ends[1], line.mean(ends[0], ends[1])));
+        }
+    }
+    next.push(line.len());
+    next
+}
+
+fn nearest_to_mean(line: &Line, start: usize, end: usize) -> u32 {
+    // Distances times the length of the interval, so that they are integers.
+    let (length, sum) = ((end - start) as u128, line.sum(start, end));
+    let distance = |i: usize| sum.abs_diff(u128::from(line.place(i)) * length);
+    let after = line.first_above(start, end, line.mean(start, end));
+    let least = if after < end { distance(after - 1).min(distance(after)) } else { distance(after - 1) };
+    let below = (start..after).rev().take_while(|&i| distance(i) == least);
+    let above = (after..end).take_while(|&i| distance(i) == least);
+    below.chain(above).map(|i| line.ids()[i]).min().unwrap_or(line.ids()[start])
+}

@@ -1,0 +1,123 @@
+//! Feature points: the vertices that stand for a field, chosen by a rule \[Patane09, sections 1 and 4.3\].
+
+mod k_means;
+mod line;
+mod seeding;
+
+use crate::error::{Error, FieldError, OptionError};
+use crate::field::critical::{DeltaOptions, critical_points};
+use crate::field::order::{Threshold, VertexOrder};
+use crate::field::persistence::persistence;
+use crate::mesh::{Connectivity, TriMesh};
+
+/// Where feature points come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Features<'a> {
+    /// Vertices named by the caller; repeated ones count once.
+    Vertices(&'a [u32]),
+    /// The critical points that are left at a δ, all of them at δ = 0: C_δ of \[Patane09, section 3\].
+    CriticalPoints(DeltaOptions),
+    /// Both ends of every pair of persistence above the threshold, and the essential minima, maxima and saddles, which have no
+    /// partner. The extrema among them are those that [`simplify`](super::simplify) leaves.
+    Persistence(Threshold),
+    /// For each of so many clusters of the values, the vertex whose value is nearest to the mean of its cluster; of several the
+    /// one with the smallest id.
+    KMeans {
+        /// How many, at least 1. With as many as there are different values or more, each value is a cluster.
+        clusters: usize,
+        /// Of the random numbers that the search begins with. The same seed gives the same clusters everywhere.
+        seed: u64,
+    },
+}
+
+/// Chooses vertices by a rule.
+///
+/// # Definition
+/// See [`Features`]. Clusters are those of k-means in one dimension: they minimise Σ (f_i − mean of the cluster of i)² over the
+/// vertices that belong to a triangle, locally: every value is in the cluster with the nearest mean, the lower one of two that
+/// are equally near. Means are first placed on values by k-means++ \[Arthur07\], then moved by Lloyd's iterations
+/// \[Lloyd82\]; a cluster that becomes empty, or is worth less than splitting another, takes half of that with the greatest sum.
+///
+/// # Properties
+/// Ascending, each vertex once; empty where a rule finds nothing, as at a large δ. Isolated vertices are features only where they
+/// are named.
+/// Clusters are found in integers, without rounding: sums are exact whatever the range and however far from zero it lies. For
+/// them, values nearer to each other than 2⁻⁵² of the range (up to a million vertices; 2⁻⁴⁶ with as many as ids allow) are
+/// equal. Time is O(n) for sorting, and O(k log n) for k clusters with each iteration. Their number is bounded, more tightly the
+/// more clusters there are: of thousands, the last values may still be with the second nearest mean.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `IndexOutOfBounds` for a named vertex that does not exist; `InvalidOption`
+/// where δ or the threshold is negative or not finite, and for 0 clusters.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{field, mesh::shapes};
+/// let torus = shapes::torus(40, 20, 0.0)?;
+/// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let essential = field::Features::Persistence(field::Threshold::Relative(0.1));
+/// assert_eq!(field::feature_points(&torus, &height, &essential)?.len(), 4);
+/// let spread = field::Features::KMeans { clusters: 7, seed: 1 };
+/// assert_eq!(field::feature_points(&torus, &height, &spread)?.len(), 7);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn feature_points(mesh: &TriMesh, values: &[f64], features: &Features<'_>) -> Result<Vec<u32>, Error> {
+    let n = mesh.vertex_count();
+    VertexOrder::new(values, n)?;
+    let mut chosen = vec![false; n];
+    let mut choose = |vertex: u32| chosen[vertex as usize] = true;
+    match *features {
+        Features::Vertices(vertices) => {
+            if let Some(&index) = vertices.iter().find(|&&v| v as usize >= n) {
+                return Err(FieldError::IndexOutOfBounds { index, vertices: n }.into());
+            }
+            vertices.iter().for_each(|&v| choose(v));
+        }
+        Features::CriticalPoints(options) => {
+            critical_points(mesh, values, &options)?.points.iter().for_each(|point| choose(point.vertex));
+        }
+        Features::Persistence(threshold) => {
+            let bound = threshold.absolute(mesh, values, "threshold")?;
+            let diagram = persistence(mesh, values)?;
+            for pair in diagram.pairs.iter().take_while(|pair| pair.persistence > bound) {
+                choose(pair.extremum);
+                choose(pair.saddle);
+            }
+            for essential in [&diagram.essential_minima, &diagram.essential_maxima, &diagram.essential_saddles] {
+                essential.iter().for_each(|&v| choose(v));
+            }
+        }
+        Features::KMeans { clusters: 0, .. } => {
+            let expected = "a whole number that is at least 1".to_owned();
+            return Err(OptionError::InvalidOption { option: "clusters".to_owned(), expected }.into());
+        }
+        Features::KMeans { clusters, seed } => {
+            k_means::representatives(mesh.connectivity(), values, clusters, seed)?
+                .iter()
+                .for_each(|&v| choose(v));
+        }
+    }
+    Ok(ascending(&chosen))
+}
+
+/// The vertices and their neighbours: I = C ∪ N(C) of \[Patane09, section 4.3\]. Ascending, each once.
+///
+/// # Panics
+/// Where a vertex does not exist.
+#[must_use]
+pub fn with_stars(connectivity: &Connectivity, vertices: &[u32]) -> Vec<u32> {
+    let mut chosen = vec![false; connectivity.vertex_count()];
+    for &vertex in vertices {
+        chosen[vertex as usize] = true;
+        for &triangle in connectivity.star(vertex) {
+            for corner in connectivity.triangles()[triangle as usize] {
+                chosen[corner as usize] = true;
+            }
+        }
+    }
+    ascending(&chosen)
+}
+
+fn ascending(chosen: &[bool]) -> Vec<u32> {
+    (0..chosen.len() as u32).filter(|&v| chosen[v as usize]).collect()
+}
