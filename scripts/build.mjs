@@ -70,6 +70,9 @@ function rustFlags() {
   return [process.env.RUSTFLAGS, ...OPTIMISATION, ...remap].filter(Boolean).join(' ');
 }
 
+/** The parts of the type declarations, in the order in which one reads them: one module in several files. */
+const TYPES = ['package', 'files', 'mesh', 'field', 'smoothing'];
+
 /** Two bundles with the glue in them, one for browsers and one for Node; the rest is copied as it is. */
 async function bundle() {
   rmSync(dist, { recursive: true, force: true });
@@ -81,8 +84,10 @@ async function bundle() {
   writeFileSync(join(dist, WASM), wasm);
   writeFileSync(join(dist, 'wasm-base64.js'), `export default '${wasm.toString('base64')}';\n`);
   for (const name of ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs']) copyFileSync(source(name), join(dist, name));
-  // The same text for both kinds of module: TypeScript tells them apart by the file's name.
-  for (const name of ['index.d.ts', 'index.d.cts']) copyFileSync(source('morse-smooth.d.ts'), join(dist, name));
+  // The same text for both kinds of module: TypeScript tells them apart by the file's name, and imports between the parts
+  // would have to name files of either kind.
+  const types = TYPES.map((name) => readFileSync(source(`types/${name}.d.ts`), 'utf8')).join('\n');
+  for (const name of ['index.d.ts', 'index.d.cts']) writeFileSync(join(dist, name), types);
 }
 
 async function bundleOne(name, platform, output) {

@@ -64,6 +64,16 @@ export function toVertices(value, argument, vertices) {
   });
 }
 
+/** Vertices of a mesh that has so many, or a rule that finds them. */
+export function toConstraints(value, vertexCount) {
+  if (!isRecord(value)) return toVertices(value, 'constraints', vertexCount);
+  const rule = { ...value };
+  const { vertices } = rule;
+  const areGiven = vertices !== undefined && vertices !== null;
+  if (areGiven) rule.vertices = toVertices(vertices, 'constraints.vertices', vertexCount);
+  return rule;
+}
+
 /** Bytes of a file: a Uint8Array, which a Node Buffer is too. */
 export function toBytes(value) {
   if (typedArrayName(value) === 'Uint8Array') return value;

@@ -1,4 +1,4 @@
-import { toLevels, toNumbers, toOptions, toTriangles, toVertices } from './convert.js';
+import { toConstraints, toLevels, toNumbers, toOptions, toTriangles, toVertices } from './convert.js';
 import { attempt, invalidArgument } from './error.js';
 import { Handle } from './handle.js';
 import { core } from './instance.js';
@@ -103,6 +103,13 @@ export class TriMesh {
 
   basins(values, options) {
     return this.#analyse('basins', values, toOptions(options));
+  }
+
+  constrainedVertices(values, constraints, options) {
+    const numbers = toNumbers(values, 'values');
+    const rule = toConstraints(constraints, this.vertexCount);
+    const settings = toOptions(options);
+    return handleOf(this).use((raw) => raw.constrainedVertices(numbers, rule, settings));
   }
 
   smoothness(values, options) {

@@ -1,4 +1,4 @@
-import { toNumbers, toOptions } from './convert.js';
+import { toConstraints, toNumbers, toOptions } from './convert.js';
 import { Handle } from './handle.js';
 import { core } from './instance.js';
 import { handleOf } from './mesh.js';
@@ -8,31 +8,63 @@ export class Smoother {
   #handle;
   /** Makes a call during which `onProgress` may run. */
   #run;
+  #vertexCount;
 
   constructor(mesh, options) {
     const { RawSmoother } = core();
     const source = handleOf(mesh);
     const relay = relayProgress(toOptions(options));
     this.#run = relay.run;
+    this.#vertexCount = mesh.vertexCount;
     const raw = relay.run(() => source.use((rawMesh) => new RawSmoother(rawMesh, relay.options)));
     this.#handle = new Handle('Smoother', raw);
   }
 
   tikhonov(values, options) {
-    const numbers = toNumbers(values, 'values');
-    const settings = toOptions(options);
-    return this.#run(() => this.#handle.useAlone((raw) => raw.tikhonov(numbers, settings)));
+    return this.#smooth('tikhonov', values, options);
+  }
+
+  interpolate(values, options) {
+    return this.#smooth('interpolate', values, options);
+  }
+
+  leastSquares(values, options) {
+    const { weights, ...others } = toOptions(options) ?? {};
+    const hasWeights = weights !== undefined && weights !== null;
+    return this.#smooth('leastSquares', values, others, hasWeights ? toNumbers(weights, 'weights') : undefined);
+  }
+
+  lowPass(values, options) {
+    return this.#smooth('lowPass', values, options);
+  }
+
+  bilateral(values, options) {
+    return this.#smooth('bilateral', values, options);
   }
 
   free() {
     this.#handle.free();
   }
+
+  #smooth(method, values, options, weights) {
+    const numbers = toNumbers(values, 'values');
+    const settings = withConstraints(toOptions(options), this.#vertexCount);
+    return this.#run(() => this.#handle.useAlone((raw) => raw[method](numbers, settings, weights)));
+  }
+}
+
+/** Options whose constraints are as the wasm module takes them. */
+function withConstraints(settings, vertexCount) {
+  const constraints = settings?.constraints;
+  if (constraints !== undefined && constraints !== null)
+    settings.constraints = toConstraints(constraints, vertexCount);
+  return settings;
 }
 
 export function smooth(mesh, values, options) {
   const module = core();
   const source = handleOf(mesh);
   const numbers = toNumbers(values, 'values');
-  const relay = relayProgress(toOptions(options));
+  const relay = relayProgress(withConstraints(toOptions(options), mesh.vertexCount));
   return relay.run(() => source.use((rawMesh) => module.smooth(rawMesh, numbers, relay.options)));
 }

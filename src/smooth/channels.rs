@@ -1,9 +1,8 @@
 //! Fields with several values per vertex: taken apart, normalised, and put together again.
 
-use super::Smoother;
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
-use crate::mesh::LinkKind;
+use crate::mesh::{LinkKind, TriMesh};
 
 /// Channels that are solved for at once: as many as a factor in double precision takes together. Any number of channels
 /// takes the memory of so many.
@@ -19,9 +18,9 @@ pub(super) struct Channel {
 }
 
 impl Channel {
-    fn new(smoother: &Smoother, values: Vec<f64>, range: ValueRange) -> Self {
+    fn new(mesh: &TriMesh, values: Vec<f64>, range: ValueRange) -> Self {
         let length = range.length();
-        let kinds = smoother.mesh.connectivity().link_kinds();
+        let kinds = mesh.connectivity().link_kinds();
         let counts = |kind: LinkKind| length > 0.0 && kind != LinkKind::Isolated;
         let scaled = |(v, &kind): (&f64, &LinkKind)| if counts(kind) { (v - range.min) / length } else { 0.0 };
         let normalized = values.iter().zip(kinds).map(scaled).collect();
@@ -44,8 +43,8 @@ pub(super) struct Channels<'a> {
 impl<'a> Channels<'a> {
     /// # Errors
     /// `InvalidOption` for no channels at all; `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-    pub(super) fn new(smoother: &Smoother, values: &'a [f64], channels: usize) -> Result<Self> {
-        let n = smoother.mesh.vertex_count();
+    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize) -> Result<Self> {
+        let n = mesh.vertex_count();
         if channels == 0 {
             let expected = "a positive integer".to_owned();
             return Err(OptionError::InvalidOption { option: "channels".to_owned(), expected }.into());
@@ -54,7 +53,7 @@ impl<'a> Channels<'a> {
             let expected = n.saturating_mul(channels);
             return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
         }
-        let range = |c| Ok(value_range(smoother.mesh.connectivity(), &column(values, c, channels))?);
+        let range = |c| Ok(value_range(mesh.connectivity(), &column(values, c, channels))?);
         let ranges = (0..channels).map(range).collect::<Result<_>>()?;
         Ok(Self { interleaved: values, ranges })
     }
@@ -69,10 +68,10 @@ impl<'a> Channels<'a> {
     }
 
     /// A few channels at a time: the first one's number, and the channels.
-    pub(super) fn groups(&self, smoother: &Smoother) -> impl Iterator<Item = (usize, Vec<Channel>)> {
+    pub(super) fn groups(&self, mesh: &TriMesh) -> impl Iterator<Item = (usize, Vec<Channel>)> {
         (0..self.count()).step_by(TOGETHER).map(move |first| {
             let numbers = first..self.count().min(first + TOGETHER);
-            (first, numbers.map(|c| Channel::new(smoother, self.values(c), self.ranges[c])).collect())
+            (first, numbers.map(|c| Channel::new(mesh, self.values(c), self.ranges[c])).collect())
         })
     }
 

@@ -1,10 +1,10 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
-use super::Smoother;
 use super::channels::Channels;
 use super::system::Reach;
 use crate::error::{Result, SmoothError};
 use crate::field::{Features, feature_points, with_stars};
+use crate::mesh::TriMesh;
 
 /// What becomes of a component of the mesh without a constrained vertex, where the equations say nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,6 +29,19 @@ pub struct Constraints<'a> {
     pub unconstrained: Unconstrained,
 }
 
+/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`.
+pub fn constrained_vertices(
+    mesh: &TriMesh,
+    values: &[f64],
+    channels: usize,
+    constraints: &Constraints<'_>,
+) -> Result<Vec<u32>> {
+    Ok(ConstraintSet::new(mesh, &Channels::new(mesh, values, channels)?, constraints)?.vertices)
+}
+
 /// The vertices that the rules came to.
 #[derive(Debug)]
 pub(super) struct ConstraintSet {
@@ -39,18 +52,17 @@ pub(super) struct ConstraintSet {
 }
 
 impl ConstraintSet {
-    pub(super) fn new(smoother: &Smoother, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
         let mut features = Vec::new();
         for c in 0..channels.count() {
-            features.extend(feature_points(&smoother.mesh, &channels.values(c), &constraints.features)?);
+            features.extend(feature_points(mesh, &channels.values(c), &constraints.features)?);
             if matches!(constraints.features, Features::Vertices(_)) {
                 break;
             }
         }
         features.sort_unstable();
         features.dedup();
-        let vertices =
-            if constraints.stars { with_stars(smoother.mesh.connectivity(), &features) } else { features.clone() };
+        let vertices = if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
         Ok(Self { features, vertices })
     }
 }

@@ -24,8 +24,8 @@ pub(super) fn run(
     options: &InterpolateOptions<'_>,
     progress: Progress<'_>,
 ) -> Result<Smoothed> {
-    let channels = Channels::new(smoother, values, options.channels)?;
-    let set = ConstraintSet::new(smoother, &channels, &options.constraints)?;
+    let channels = Channels::new(&smoother.mesh, values, options.channels)?;
+    let set = ConstraintSet::new(&smoother.mesh, &channels, &options.constraints)?;
     let left_out = LeftOut::new(smoother.reach(), &set, options.constraints.unconstrained)?;
     let mut free = left_out.remaining(smoother.reach());
     free.retain(|v| set.vertices.binary_search(v).is_err());
@@ -50,7 +50,7 @@ fn solve(
     let mut interleaved = channels.to_interleaved();
     let mut reports = Vec::with_capacity(channels.count());
     let mut factor = None;
-    for (first, group) in channels.groups(smoother) {
+    for (first, group) in channels.groups(&smoother.mesh) {
         let manner = smoother.manner(first == 0);
         let fields: Vec<&[f64]> = group.iter().map(|channel: &Channel| channel.normalized.as_slice()).collect();
         let solved = system.solve(&smoother.laplacian, &fields, manner, progress)?;

@@ -32,8 +32,8 @@ pub(super) fn run(
     progress: Progress<'_>,
 ) -> Result<Smoothed> {
     check_epsilon(options.epsilon)?;
-    let channels = Channels::new(smoother, values, options.channels)?;
-    let set = ConstraintSet::new(smoother, &channels, &options.constraints)?;
+    let channels = Channels::new(&smoother.mesh, values, options.channels)?;
+    let set = ConstraintSet::new(&smoother.mesh, &channels, &options.constraints)?;
     let left_out = LeftOut::new(smoother.reach(), &set, options.constraints.unconstrained)?;
     let weights = weights(&set, options)?;
     let request = Regularization {

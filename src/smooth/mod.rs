@@ -12,7 +12,7 @@ mod routes;
 mod system;
 mod tikhonov;
 
-pub use constraints::{Constraints, Unconstrained};
+pub use constraints::{Constraints, Unconstrained, constrained_vertices};
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use maximum_principle::MaximumPrinciple;
@@ -25,8 +25,7 @@ use nalgebra_sparse::CscMatrix;
 use crate::error::{OptionError, Result};
 use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
-use channels::Channels;
-use constraints::{ConstraintSet, LeftOut};
+use constraints::LeftOut;
 use system::{FullSystem, Manner, Reach, ReducedSystem};
 
 /// Which solver a [`Smoother`] uses.
@@ -286,20 +285,6 @@ impl Smoother {
         progress: Progress<'_>,
     ) -> Result<Smoothed> {
         least_squares::run(self, values, options, progress)
-    }
-
-    /// The vertices that constraints come to, ascending, stars included.
-    ///
-    /// # Errors
-    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`.
-    pub fn constrained_vertices(
-        &self,
-        values: &[f64],
-        channels: usize,
-        constraints: &Constraints<'_>,
-    ) -> Result<Vec<u32>> {
-        let channels = Channels::new(self, values, channels)?;
-        Ok(ConstraintSet::new(self, &channels, constraints)?.vertices)
     }
 
     fn reach(&self) -> &Reach {

@@ -55,7 +55,7 @@ fn solve(
     let mut interleaved = channels.to_interleaved();
     let mut reports = Vec::with_capacity(channels.count());
     let mut factor = None;
-    for (first, group) in channels.groups(smoother) {
+    for (first, group) in channels.groups(&smoother.mesh) {
         let manner = smoother.manner(first == 0);
         let solved = system.solve(&smoother.mesh, &group, *epsilon, attraction, manner, progress)?;
         let mass = system.mass().unwrap_or(&Mass::Identity);

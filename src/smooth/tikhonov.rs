@@ -75,7 +75,7 @@ pub(super) fn run(
             }
         }
     }
-    let channels = Channels::new(smoother, values, options.channels)?;
+    let channels = Channels::new(&smoother.mesh, values, options.channels)?;
     let attraction = match is_fem {
         true => Attraction::Metric(Metric::Lumped, MassScale::Raw),
         false => Attraction::Metric(options.metric, options.mass_scale),

@@ -10,7 +10,7 @@ use super::options::read;
 use crate::field::{self, CriticalKind};
 
 #[wasm_bindgen]
-#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
     #[wasm_bindgen(js_name = criticalPoints)]
     pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {

@@ -12,7 +12,7 @@ use crate::field;
 use crate::mesh::TriMesh;
 
 #[wasm_bindgen]
-#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
     /// `levels` is a `Float64Array`, `{ count }` or `{ saddles, offset }`.
     #[wasm_bindgen(js_name = levelSets)]

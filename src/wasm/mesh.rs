@@ -5,10 +5,10 @@ use wasm_bindgen::prelude::*;
 
 use super::convert::{diagnostics, floats, ids, object, sparse};
 use super::error::Thrown;
-use super::options::read;
+use super::options::{ConstraintInput, read};
 use crate::mesh::{self, TriMesh};
 use crate::operators;
-use crate::smooth;
+use crate::smooth::{self, Unconstrained};
 
 /// A mesh in wasm memory.
 #[wasm_bindgen]
@@ -27,7 +27,7 @@ impl RawTriMesh {
 }
 
 #[wasm_bindgen]
-#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
     #[wasm_bindgen(constructor)]
     pub fn new(positions: &Float64Array, triangles: &Uint32Array, options: &JsValue) -> Result<Self, Thrown> {
@@ -76,6 +76,20 @@ impl RawTriMesh {
 
     pub fn triangles(&self) -> Uint32Array {
         Uint32Array::from(self.mesh.connectivity().triangles().as_flattened())
+    }
+
+    #[wasm_bindgen(js_name = constrainedVertices)]
+    pub fn constrained_vertices(
+        &self,
+        values: &Float64Array,
+        constraints: &JsValue,
+        options: &JsValue,
+    ) -> Result<Uint32Array, Thrown> {
+        let channels = read(options, &[&["channels"]])?.channels();
+        let input = ConstraintInput::read(constraints)?;
+        let constraints = input.constraints(Unconstrained::Keep);
+        let vertices = smooth::constrained_vertices(&self.mesh, &floats(values)?, channels, &constraints)?;
+        Ok(Uint32Array::from(vertices.as_slice()))
     }
 
     pub fn smoothness(&self, values: &Float64Array, options: &JsValue) -> Result<JsValue, Thrown> {

@@ -27,7 +27,7 @@ fn kinds(result: &Object, values: impl Iterator<Item = CriticalKind>) {
 }
 
 #[wasm_bindgen]
-#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
     pub fn persistence(&self, values: &Float64Array) -> Result<Object, Thrown> {
         let diagram = field::persistence(self.mesh(), &floats(values)?)?;

@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
-use super::options::{SMOOTHER, TIKHONOV, read, read_smooth};
+use super::options::{ConstraintInput, INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, read, read_smooth};
 use crate::smooth::{Phase, Smoothed, Smoother};
 
 /// A smoother in wasm memory.
@@ -17,7 +17,7 @@ pub struct RawSmoother {
 }
 
 #[wasm_bindgen]
-#[allow(missing_docs, reason = "the public documentation is in src/js/morse-smooth.d.ts")]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawSmoother {
     #[wasm_bindgen(constructor)]
     pub fn new(mesh: &RawTriMesh, options: &JsValue) -> Result<Self, Thrown> {
@@ -31,18 +31,52 @@ impl RawSmoother {
         let mut tell = teller(self.on_progress.as_ref());
         Ok(result(&self.smoother.tikhonov_with_progress(&floats(values)?, &options, &mut tell)?))
     }
+
+    pub fn interpolate(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let input = read(options, &[INTERPOLATE])?;
+        let constraints = ConstraintInput::read(&input.constraints)?;
+        let options = input.interpolate(&constraints)?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.interpolate_with_progress(&floats(values)?, &options, &mut tell)?))
+    }
+
+    #[wasm_bindgen(js_name = leastSquares)]
+    pub fn least_squares(
+        &mut self,
+        values: &Float64Array,
+        options: &JsValue,
+        weights: Option<Float64Array>,
+    ) -> Result<Object, Thrown> {
+        let input = read(options, &[LEAST_SQUARES])?;
+        let constraints = ConstraintInput::read(&input.constraints)?;
+        let weights = weights.as_ref().map(floats).transpose()?;
+        let options = input.least_squares(&constraints, weights.as_deref())?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell)?))
+    }
 }
 
 /// The short way: one smoother, one field.
 #[wasm_bindgen]
 pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-    let input = read_smooth(options)?;
-    let smoother = input.smoother()?;
-    let tikhonov = input.tikhonov(smoother.operator)?;
+    let (input, method) = read_smooth(options)?;
+    let options = input.smoother()?;
     let on_progress = input.progress()?;
-    let mut smoother = Smoother::new(mesh.mesh(), smoother)?;
     let mut tell = teller(on_progress.as_ref());
-    Ok(result(&smoother.tikhonov_with_progress(&floats(values)?, &tikhonov, &mut tell)?))
+    let values = floats(values)?;
+    if method == Method::Tikhonov {
+        let tikhonov = input.tikhonov(options.operator)?;
+        let mut smoother = Smoother::new(mesh.mesh(), options)?;
+        return Ok(result(&smoother.tikhonov_with_progress(&values, &tikhonov, &mut tell)?));
+    }
+    let constraints = ConstraintInput::read(&input.constraints)?;
+    Ok(result(&if method == Method::Interpolate {
+        let interpolate = input.interpolate(&constraints)?;
+        Smoother::new(mesh.mesh(), options)?.interpolate_with_progress(&values, &interpolate, &mut tell)?
+    } else {
+        let least_squares = input.least_squares(&constraints, None)?;
+        Smoother::new(mesh.mesh(), options)?.least_squares_with_progress(&values, &least_squares, &mut tell)?
+    }))
 }
 
 /// Calls `{ phase, fraction }` back. What a callback throws is not ours: `src/js` hands callbacks that keep it.

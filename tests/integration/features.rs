@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use morse_smooth::Error;
 use morse_smooth::field::{
-    DeltaOptions, DeltaScale, ExtremumRule, Features, LinkReading, Threshold, critical_points, feature_points, persistence,
-    with_stars,
+    DeltaOptions, DeltaScale, ExtremumRule, Features, LinkReading, Threshold, critical_points, feature_points,
+    persistence, with_stars,
 };
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
@@ -38,7 +38,9 @@ fn optimum(sorted: &[f64], clusters: usize) -> f64 {
     for _ in 1..clusters {
         best = (0..=n)
             .map(|end| {
-                (0..end).map(|start| best[start] + cost(&sorted[start..end])).fold(best[end], |a, b| if b < a { b } else { a })
+                (0..end)
+                    .map(|start| best[start] + cost(&sorted[start..end]))
+                    .fold(best[end], |a, b| if b < a { b } else { a })
             })
             .collect();
     }
@@ -58,7 +60,8 @@ fn ratios() {
             // The cost with the representatives' Voronoi cells
             let mut r: Vec<f64> = reps.iter().map(|&v| f[v as usize]).collect();
             r.sort_by(f64::total_cmp);
-            let mut distinct = sorted.clone(); distinct.dedup();
+            let mut distinct = sorted.clone();
+            distinct.dedup();
             let mut groups: Vec<Vec<f64>> = vec![Vec::new(); r.len()];
             for &x in &sorted {
                 let j = (0..r.len()).min_by(|&a, &b| (r[a] - x).abs().total_cmp(&(r[b] - x).abs())).unwrap();

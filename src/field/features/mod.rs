@@ -92,9 +92,7 @@ pub fn feature_points(mesh: &TriMesh, values: &[f64], features: &Features<'_>) -
             return Err(OptionError::InvalidOption { option: "clusters".to_owned(), expected }.into());
         }
         Features::KMeans { clusters, seed } => {
-            k_means::representatives(mesh.connectivity(), values, clusters, seed)?
-                .iter()
-                .for_each(|&v| choose(v));
+            k_means::representatives(mesh.connectivity(), values, clusters, seed)?.iter().for_each(|&v| choose(v));
         }
     }
     Ok(ascending(&chosen))

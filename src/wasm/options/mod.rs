@@ -1,22 +1,18 @@
 //! Option objects: read through serde, with unknown and malformed options refused by name.
 
-use js_sys::{Array, Function, Object};
+mod constraints;
+mod smoothing;
+
+pub(super) use constraints::ConstraintInput;
+pub(super) use smoothing::{INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, read_smooth};
+
+use js_sys::{Array, Object};
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::error::set;
 use crate::error::OptionError;
 use crate::field::{DeltaOptions, DeltaScale, ExtremumRule, Keep, LinkReading, PathStyle, Threshold};
 use crate::operators::{LaplacianWeights, MassScale};
-use crate::smooth::{
-    Metric, Operator, Precision, SmootherOptions, SolverChoice, TikhonovOptions, epsilon_for_wavelength,
-};
-
-/// The names that `Smoother` takes.
-pub(super) const SMOOTHER: &[&str] = &["weights", "operator", "solver", "precision", "bounds", "onProgress"];
-/// The names that `Smoother.tikhonov` takes.
-pub(super) const TIKHONOV: &[&str] = &["epsilon", "cutoffWavelength", "metric", "massScale", "channels"];
-/// The names that `smooth` takes besides those of [`SMOOTHER`].
-const SMOOTH: &[&str] = &["method", "metric", "massScale", "epsilon", "cutoffWavelength", "constraints", "energy"];
 
 /// All options of all functions: each function names those it takes. One type of few kinds of fields keeps the module small,
 /// because serde writes the code for every type anew.
@@ -62,9 +58,21 @@ pub(super) struct Options {
     cutoff_wavelength: Option<f64>,
     channels: Option<u32>,
     #[serde(with = "serde_wasm_bindgen::preserve")]
-    constraints: JsValue,
+    pub(super) constraints: JsValue,
+    from: Option<String>,
     #[serde(with = "serde_wasm_bindgen::preserve")]
-    energy: JsValue,
+    vertices: JsValue,
+    clusters: Option<u32>,
+    seed: Option<u32>,
+    stars: Option<bool>,
+    unconstrained: Option<String>,
+    energy: Option<String>,
+    iterations: Option<u32>,
+    lambda: Option<f64>,
+    mu: Option<f64>,
+    radius: Option<f64>,
+    sigma_distance: Option<f64>,
+    sigma_value: Option<f64>,
 }
 
 /// Reads an options object that may have the names in `known`. `undefined` and `null` give the defaults.
@@ -98,9 +106,10 @@ fn not_an_object() -> OptionError {
 /// What kind of value an option takes, in the words of JavaScript rather than of serde.
 fn expected(option: &str) -> &'static str {
     match option {
-        "delta" | "offset" | "threshold" | "persistence" | "cutoffWavelength" => "a number",
-        "channels" | "count" => "an integer that is not negative",
-        "weld" | "binary" | "bounds" => "true or false",
+        "delta" | "offset" | "threshold" | "persistence" | "cutoffWavelength" | "lambda" | "mu" | "radius"
+        | "sigmaDistance" | "sigmaValue" => "a number",
+        "channels" | "count" | "clusters" | "seed" | "iterations" => "an integer that is not negative",
+        "weld" | "binary" | "bounds" | "stars" => "true or false",
         _ => "a name in quotes",
     }
 }
@@ -201,93 +210,8 @@ impl Options {
         let scales = [("meanOne", MassScale::MeanOne), ("raw", MassScale::Raw)];
         choose("massScale", self.mass_scale.as_ref(), &scales)
     }
-
-    pub(super) fn smoother(&self) -> Result<SmootherOptions, OptionError> {
-        let precisions = [("double", Precision::Double), ("single", Precision::Single)];
-        if self.bounds == Some(true) {
-            return Err(unsupported("bounds", "true"));
-        }
-        let solvers = [
-            ("auto", SolverChoice::Auto),
-            ("cholesky", SolverChoice::Cholesky),
-            ("cg", SolverChoice::ConjugateGradient),
-        ];
-        Ok(SmootherOptions {
-            weights: self.weights()?,
-            operator: self.operator()?,
-            solver: choose("solver", self.solver.as_ref(), &solvers)?,
-            precision: choose("precision", self.precision.as_ref(), &precisions)?,
-            bounds: self.bounds.unwrap_or_default(),
-        })
-    }
-
-    fn operator(&self) -> Result<Operator, OptionError> {
-        choose("operator", self.operator.as_ref(), &[("paper", Operator::Paper), ("fem", Operator::Fem)])
-    }
-
-    /// The callback, if there is one.
-    pub(super) fn progress(&self) -> Result<Option<Function>, OptionError> {
-        if is_absent(&self.on_progress) {
-            return Ok(None);
-        }
-        let callback = self.on_progress.dyn_ref::<Function>().cloned();
-        callback.map(Some).ok_or_else(|| invalid("onProgress", "a function"))
-    }
-
-    fn epsilon(&self, operator: Operator) -> Result<f64, OptionError> {
-        if let Some(wavelength) = self.cutoff_wavelength {
-            if operator == Operator::Paper {
-                return Err(inapplicable("cutoffWavelength", "only the operator `fem` knows lengths"));
-            }
-            if !is_absent(&self.epsilon) {
-                return Err(inapplicable("epsilon", "`cutoffWavelength` says the same"));
-            }
-            return epsilon_for_wavelength(wavelength);
-        }
-        if self.epsilon.as_string().as_deref() == Some("auto") {
-            return Err(unsupported("epsilon", "auto"));
-        }
-        let missing = || invalid("epsilon", "a positive finite number, and it has no default");
-        self.epsilon.as_f64().ok_or_else(missing)
-    }
-
-    /// `operator` is the smoother's: not every option goes with every operator.
-    pub(super) fn tikhonov(&self, operator: Operator) -> Result<TikhonovOptions, OptionError> {
-        let epsilon = self.epsilon(operator)?;
-        let metrics = [("mass", Metric::Mass), ("identity", Metric::Identity), ("lumped", Metric::Lumped)];
-        let metric = choose("metric", self.metric.as_ref(), &metrics)?;
-        if metric == Metric::Identity && self.mass_scale.is_some() {
-            return Err(inapplicable("massScale", "the metric `identity` has no mass matrix"));
-        }
-        if operator == Operator::Fem {
-            for (option, given) in [("metric", self.metric.is_some()), ("massScale", self.mass_scale.is_some())] {
-                if given {
-                    return Err(inapplicable(option, "the operator `fem` has its own mass matrix"));
-                }
-            }
-        }
-        Ok(TikhonovOptions {
-            epsilon,
-            metric,
-            mass_scale: self.mass_scale()?,
-            channels: self.channels.map_or(1, |channels| channels as usize),
-        })
-    }
 }
 
 pub(super) fn inapplicable(option: &str, reason: &str) -> OptionError {
     OptionError::InapplicableOption { option: option.to_owned(), reason: reason.to_owned() }
-}
-
-/// The options of `smooth`, those of later versions refused as such.
-pub(super) fn read_smooth(value: &JsValue) -> Result<Options, OptionError> {
-    let options = read(value, &[SMOOTHER, SMOOTH])?;
-    let methods = [("tikhonov", Some(())), ("interpolate", None), ("leastSquares", None)];
-    choose_supported("method", options.method.as_ref(), &methods)?;
-    for (name, value) in [("constraints", &options.constraints), ("energy", &options.energy)] {
-        if !is_absent(value) {
-            return Err(unsupported(name, "any value"));
-        }
-    }
-    Ok(options)
 }
