@@ -5,14 +5,18 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use morse_smooth::Error;
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Keep, LinkReading, Threshold, critical_points, delta_hierarchy,
-    largest_edge_difference, persistence, simplify, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, critical_points,
+    delta_hierarchy, largest_edge_difference, persistence, simplify, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
 use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
 use morse_smooth::operators::MassScale;
-use morse_smooth::smooth::{Metric, Smoother, SmootherOptions, TikhonovOptions, smoothness};
+use morse_smooth::smooth::{
+    Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Metric, Smoothed, Smoother, SmootherOptions,
+    TikhonovOptions, Unconstrained, constrained_vertices, smoothness,
+};
 use serde_json::Value;
 
 fn folder() -> Option<PathBuf> {
@@ -43,6 +47,14 @@ impl Checker {
     fn close(&mut self, what: &str, found: f64, expected: f64, relative: f64) {
         let difference = (found - expected).abs();
         if difference.is_nan() || difference > relative * expected.abs() {
+            self.failures.push(format!("{what}: {found}, expected {expected}"));
+        }
+    }
+
+    /// As [`Checker::close`], for values of a field normalised to [0, 1], of which small ones may be wrong by rounding.
+    fn near(&mut self, what: &str, found: f64, expected: f64, relative: f64) {
+        let difference = (found - expected).abs();
+        if difference.is_nan() || difference > relative * expected.abs() + 1e-15 {
             self.failures.push(format!("{what}: {found}, expected {expected}"));
         }
     }
@@ -157,6 +169,52 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
     check.close(&format!("{context} ‖Lf‖"), energies.laplacian_norm, number(&expected["laplacianNorm"]), 1e-9);
 }
 
+/// One of the smoothings that the reference has.
+struct Case {
+    name: &'static str,
+    method: Method,
+}
+
+enum Method {
+    Tikhonov(Metric),
+    /// `None`: least squares.
+    Constrained(Option<Energy>, DeltaOptions),
+}
+
+/// Those with the same factor follow each other, so that it serves all fields.
+fn cases() -> Vec<Case> {
+    let all = DeltaOptions::default();
+    let some = DeltaOptions { delta: 0.02, link: LinkReading::Skip, ..all };
+    let case = |name, method| Case { name, method };
+    vec![
+        case("tikhonov identity epsilon=0.05", Method::Tikhonov(Metric::Identity)),
+        case("tikhonov mass epsilon=0.05", Method::Tikhonov(Metric::Mass)),
+        case("leastSquares epsilon=0.05 all critical points + stars", Method::Constrained(None, all)),
+        case("leastSquares epsilon=0.05 delta=0.02 skip + stars", Method::Constrained(None, some)),
+        case("interpolate harmonic delta=0.02 skip + stars", Method::Constrained(Some(Energy::Harmonic), some)),
+        case("interpolate biharmonic delta=0.02 skip + stars", Method::Constrained(Some(Energy::Biharmonic), some)),
+    ]
+}
+
+fn constraints(options: DeltaOptions) -> Constraints<'static> {
+    let features = Features::CriticalPoints(options);
+    Constraints { features, stars: true, unconstrained: Unconstrained::Error }
+}
+
+fn smoothed(smoother: &mut Smoother, f: &[f64], method: &Method) -> Result<Smoothed, Error> {
+    match *method {
+        Method::Tikhonov(metric) => smoother
+            .tikhonov(f, &TikhonovOptions { epsilon: 0.05, metric, mass_scale: MassScale::MeanOne, channels: 1 }),
+        Method::Constrained(Some(energy), options) => {
+            smoother.interpolate(f, &InterpolateOptions { constraints: constraints(options), energy, channels: 1 })
+        }
+        Method::Constrained(None, options) => {
+            let constraints = constraints(options);
+            smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon: 0.05, weights: None, channels: 1 })
+        }
+    }
+}
+
 fn check_smoothing(
     check: &mut Checker,
     context: &str,
@@ -164,14 +222,19 @@ fn check_smoothing(
     smoother: &mut Smoother,
     f: &[f64],
     field: &Value,
-    metric: Metric,
+    case: &Case,
 ) {
-    let name = if metric == Metric::Identity { "identity" } else { "mass" };
-    let expected = &field["smoothed"][format!("tikhonov {name} epsilon=0.05")];
-    let context = format!("{context} {name}");
-    let options = TikhonovOptions { epsilon: 0.05, metric, mass_scale: MassScale::MeanOne, channels: 1 };
+    let context = format!("{context} {}", case.name);
+    let expected = &field["smoothed"][case.name];
     let start = Instant::now();
-    let found = smoother.tikhonov(f, &options).expect("a solution");
+    let found = smoothed(smoother, f, &case.method);
+    if expected.is_null() {
+        // The reference leaves out what has no constraint at all.
+        let code = found.map_err(|error| error.code());
+        check.equal(&context, &code.err(), &Some("Unconstrained"));
+        return;
+    }
+    let found = found.expect("a solution");
     let report = &found.reports[0];
     let after = as_array(&report.after);
     say(&format!("{context}: {after:?}, {} entries, {:.1?}", report.solver.factor_nonzeros, start.elapsed()));
@@ -202,7 +265,20 @@ fn check_smoothing(
     for (vertex, sample) in vertices.iter().zip(expected["samples"].as_array().expect("samples")) {
         let vertex = vertex.as_u64().expect("a vertex") as usize;
         let value = (found.values[vertex] - min) / (max - min);
-        check.close(&format!("{context} at {vertex}"), value, number(sample), 1e-7);
+        // A vertex at the very bottom is 0.
+        check.near(&format!("{context} at {vertex}"), value, number(sample), 1e-7);
+    }
+    if let Method::Constrained(energy, options) = case.method {
+        let key = if options.delta == 0.0 { "all critical points" } else { "delta=0.02 skip" };
+        let sizes = &field["constraints"][key];
+        check.equal(&format!("{context} constraints"), &Some(report.constraint_count as u64), &sizes[1].as_u64());
+        let all = constrained_vertices(smoother.mesh(), f, 1, &Constraints { stars: false, ..constraints(options) });
+        let all = all.expect("a field").len() as u64;
+        check.equal(&format!("{context} feature points"), &Some(all), &sizes[0].as_u64());
+        if energy.is_some() {
+            // Critical points at δ are critical points.
+            check.equal(&format!("{context} kept"), &report.preserved, &Some(all as usize));
+        }
     }
 }
 
@@ -232,11 +308,10 @@ fn check_file(folder: &Path, file: &str, expected: &Value) -> Vec<String> {
         let f = values(folder, file, &loaded, name);
         check_field(&mut check, &format!("{file} {name}"), &smoother, &f, field);
     }
-    // One metric after the other, so that one factor serves all fields.
-    for metric in [Metric::Identity, Metric::Mass] {
+    for case in cases() {
         for (name, field) in fields {
             let f = values(folder, file, &loaded, name);
-            check_smoothing(&mut check, &format!("{file} {name}"), file, &mut smoother, &f, field, metric);
+            check_smoothing(&mut check, &format!("{file} {name}"), file, &mut smoother, &f, field, &case);
         }
     }
     check.failures
