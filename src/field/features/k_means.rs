@@ -32,10 +32,13 @@ pub(super) fn representatives(
     for _ in 0..(MOST_MOVES / clusters).max(FEWEST_MOST_ITERATIONS) {
         let mut next = moved(&line, &bounds);
         if next.len() <= clusters {
-            next = split(&line, &next, clusters);
+            next = divided(&line, &next, &gains(&line, &next), clusters);
         }
         if next == bounds {
-            break;
+            match exchanged(&line, &bounds, clusters) {
+                Some(better) => next = better,
+                None => break,
+            }
         }
         bounds = next;
     }
@@ -61,26 +64,58 @@ fn moved(line: &Line, bounds: &[usize]) -> Vec<usize> {
     next
 }
 
-/// Divides as many clusters at their means as are missing, those with the greatest sums of squares; none of which all places
-/// are equal. Sums decrease.
-fn split(line: &Line, bounds: &[usize], clusters: usize) -> Vec<usize> {
-    let missing = clusters + 1 - bounds.len();
-    let spreads: Vec<u128> =
-        bounds.windows(2).map(|ends| line.spread(ends[0], ends[1], line.mean(ends[0], ends[1]))).collect();
-    let mut greatest: Vec<u32> = (0..spreads.len() as u32).filter(|&i| spreads[i as usize] > 0).collect();
-    sort_by_key(&mut greatest, &|i| !ascending_bits(spreads[i as usize] as f64));
-    greatest.truncate(missing);
-    let mut divided = vec![false; spreads.len()];
-    greatest.iter().for_each(|&i| divided[i as usize] = true);
+/// By how much a bound lessens the sum of squared distances from means: mn/(m + n) (s/m − t/n)².
+fn worth(line: &Line, start: usize, middle: usize, end: usize) -> f64 {
+    let (m, n) = ((middle - start) as u128, (end - middle) as u128);
+    let difference = (line.sum(middle, end) * m).abs_diff(line.sum(start, middle) * n) as f64;
+    if m * n == 0 { 0.0 } else { difference * difference / ((m * n) as f64 * (m + n) as f64) }
+}
+
+/// What dividing each cluster at its mean is worth: 0 where all its places are equal.
+fn gains(line: &Line, bounds: &[usize]) -> Vec<f64> {
+    bounds.windows(2).map(|ends| worth(line, ends[0], middle_of(line, ends), ends[1])).collect()
+}
+
+fn middle_of(line: &Line, ends: &[usize]) -> usize {
+    line.first_above(ends[0], ends[1], line.mean(ends[0], ends[1]))
+}
+
+/// Divides as many clusters at their means as are missing, those that gain most.
+fn divided(line: &Line, bounds: &[usize], gains: &[f64], clusters: usize) -> Vec<usize> {
+    let mut best: Vec<u32> = (0..gains.len() as u32).filter(|&i| gains[i as usize] > 0.0).collect();
+    sort_by_key(&mut best, &|i| !ascending_bits(gains[i as usize]));
+    best.truncate(clusters + 1 - bounds.len());
+    let mut is_divided = vec![false; gains.len()];
+    best.iter().for_each(|&i| is_divided[i as usize] = true);
     let mut next = Vec::with_capacity(clusters + 1);
     for (i, ends) in bounds.windows(2).enumerate() {
         next.push(ends[0]);
-        if divided[i] {
-            next.push(line.first_above(ends[0], ends[1], line.mean(ends[0], ends[1])));
+        if is_divided[i] {
+            next.push(middle_of(line, ends));
         }
     }
     next.push(line.len());
     next
+}
+
+/// Takes away the bound that is worth least, and divides a cluster, where that is worth more by more than rounding: Lloyd's
+/// iterations alone stay where too few means began.
+fn exchanged(line: &Line, bounds: &[usize], clusters: usize) -> Option<Vec<usize>> {
+    let (mut least, mut at) = (f64::INFINITY, 0);
+    for i in 1..bounds.len() - 1 {
+        let loss = worth(line, bounds[i - 1], bounds[i], bounds[i + 1]);
+        if loss < least {
+            (least, at) = (loss, i);
+        }
+    }
+    if at == 0 {
+        return None;
+    }
+    let mut fewer = bounds.to_vec();
+    fewer.remove(at);
+    let gains = gains(line, &fewer);
+    let is_better = gains.iter().any(|&gain| gain > least * (1.0 + 1e-9));
+    is_better.then(|| divided(line, &fewer, &gains, clusters))
 }
 
 fn nearest_to_mean(line: &Line, start: usize, end: usize) -> u32 {

@@ -33,18 +33,20 @@ pub enum Features<'a> {
 /// Chooses vertices by a rule.
 ///
 /// # Definition
-/// See [`Features`]. Clusters are those of k-means in one dimension: they minimise Σ (f_i − mean of the cluster of i)² over the
-/// vertices that belong to a triangle, locally: every value is in the cluster with the nearest mean, the lower one of two that
-/// are equally near. Means are first placed on values by k-means++ \[Arthur07\], then moved by Lloyd's iterations
-/// \[Lloyd82\]; a cluster that becomes empty, or is worth less than splitting another, takes half of that with the greatest sum.
+/// See [`Features`]. Clusters are those of k-means in one dimension. Over the vertices that belong to a triangle, Σ (f_i − mean of
+/// the cluster of i)² has a local minimum: every value is in the cluster with the nearest mean, the lower of two. Means begin at
+/// values chosen by k-means++ \[Arthur07\] and follow Lloyd's iterations \[Lloyd82\]. What becomes empty is replaced by dividing
+/// the cluster that gains most; so is, where Lloyd's iterations end, the bound that is worth least, as long as the sum decreases.
 ///
 /// # Properties
 /// Ascending, each vertex once; empty where a rule finds nothing, as at a large δ. Isolated vertices are features only where they
 /// are named.
-/// Clusters are found in integers, without rounding: sums are exact whatever the range and however far from zero it lies. For
-/// them, values nearer to each other than 2⁻⁵² of the range (up to a million vertices; 2⁻⁴⁶ with as many as ids allow) are
-/// equal. Time is O(n) for sorting, and O(k log n) for k clusters with each iteration. Their number is bounded, more tightly the
-/// more clusters there are: of thousands, the last values may still be with the second nearest mean.
+///
+/// Clusters are found in integers: sums are exact whatever the range and however far from zero it lies. For them, values nearer
+/// to each other than 2⁻⁵² of the range (up to a million vertices; 2⁻⁴⁶ with as many as ids allow) are equal, and clusters fewer
+/// where too few others are left. Time is O(n) for sorting and O(k log n) for each iteration with k clusters. The number of
+/// iterations is bounded, the more tightly the more clusters there are: of thousands, some values may still be with the second
+/// nearest mean.
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `IndexOutOfBounds` for a named vertex that does not exist; `InvalidOption`
