@@ -11,6 +11,7 @@ mod exact;
 mod extremes;
 mod fem;
 mod hierarchy;
+mod intrinsic;
 mod io_malformed;
 mod io_read;
 mod io_write;
