@@ -505,10 +505,12 @@ export interface SparseMatrix {
 // ------------------------------------------------------------------------------------------------------------- smoothing
 
 /**
- * Weights w_ij of the Laplacian: `"cotangent"` is (cot α + cot β)/2 of the angles facing the edge, `"uniform"` is 1, both
- * symmetric; `"meanValue"`, and `"normalizedCotangent"` with each row divided by its weight sum, are not.
+ * Weights w_ij of the Laplacian: `"cotangent"` is (cot α + cot β)/2 of the angles facing the edge; `"intrinsicDelaunay"` is
+ * the same after edges are flipped within the surface until no weight between two triangles is negative, which suits bad
+ * triangles, those of zero area included; `"uniform"` is 1. These are symmetric; `"meanValue"`, and `"normalizedCotangent"`
+ * with each row divided by its weight sum, are not.
  */
-export type LaplacianWeights = 'cotangent' | 'meanValue' | 'normalizedCotangent' | 'uniform';
+export type LaplacianWeights = 'cotangent' | 'meanValue' | 'normalizedCotangent' | 'uniform' | 'intrinsicDelaunay';
 
 /** `"meanOne"` multiplies B by n/area, so that ε means the same in metres and in millimetres; `"raw"` leaves it. */
 export type MassScale = 'meanOne' | 'raw';

@@ -183,13 +183,13 @@ impl Options {
 
     pub(super) fn weights(&self) -> Result<LaplacianWeights, OptionError> {
         let choices = [
-            ("cotangent", Some(LaplacianWeights::Cotangent)),
-            ("meanValue", Some(LaplacianWeights::MeanValue)),
-            ("normalizedCotangent", Some(LaplacianWeights::NormalizedCotangent)),
-            ("uniform", Some(LaplacianWeights::Uniform)),
-            ("intrinsicDelaunay", None),
+            ("cotangent", LaplacianWeights::Cotangent),
+            ("meanValue", LaplacianWeights::MeanValue),
+            ("normalizedCotangent", LaplacianWeights::NormalizedCotangent),
+            ("uniform", LaplacianWeights::Uniform),
+            ("intrinsicDelaunay", LaplacianWeights::IntrinsicDelaunay),
         ];
-        choose_supported("weights", self.weights.as_ref(), &choices)
+        choose("weights", self.weights.as_ref(), &choices)
     }
 
     /// Whether the mass matrix is the lumped one.
