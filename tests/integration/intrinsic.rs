@@ -506,7 +506,7 @@ fn neither_units_nor_the_order_of_corners_matter() {
 /// Where all circles are one, any triangulation will do, and the boundary alone has weights.
 #[test]
 fn vertices_on_one_circle() {
-    for n in [4_u32, 6, 50, 301] {
+    for n in [4_u32, 6, 50, 101] {
         let step = std::f64::consts::TAU / f64::from(n);
         let positions: Vec<[f64; 3]> =
             (0..n).map(|v| [(step * f64::from(v)).cos(), (step * f64::from(v)).sin(), 0.0]).collect();
@@ -522,7 +522,7 @@ fn vertices_on_one_circle() {
             }
         }
         let polygon = mesh(&positions, &triangles);
-        assert!(slack(&polygon) > 1e-5 || n == 301);
+        assert!(slack(&polygon) > 1e-5, "lengths must stay");
         let found = intrinsic(&polygon);
         // The angle at the circle over a side is half of that at the centre.
         let w = 0.5 / (0.5 * step).tan();
@@ -536,8 +536,7 @@ fn vertices_on_one_circle() {
                 } else {
                     0.0
                 };
-                let tolerance = if n == 301 { 0.2 } else { 1e-9 };
-                assert!((found[(i, j)] - expected).abs() <= tolerance * w, "{n}: {i}, {j}: {}", found[(i, j)]);
+                assert!((found[(i, j)] - expected).abs() <= 1e-9 * w, "{n}: {i}, {j}: {}", found[(i, j)]);
             }
         }
     }
@@ -578,8 +577,8 @@ fn triangles_without_area_take_part() {
     let mut positions: Vec<[f64; 3]> = (0..base.vertex_count() as u32).map(|v| base.position(v)).collect();
     let [a, b, c] = triangles[10].map(|v| v as usize);
     positions[a] = positions[b];
-    let between = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|x| 0.5 * (p[x] + q[x]));
-    positions[c] = between(positions[b], positions[triangles[40][0] as usize]);
+    let (p, q) = (positions[b], positions[triangles[40][0] as usize]);
+    positions[c] = [0, 1, 2].map(|x| 0.5 * (p[x] + q[x]));
     let collapsed = mesh(&positions, &triangles);
     assert_sound("collapsed", &collapsed);
     assert!(intrinsic(&collapsed).symmetric_eigenvalues().iter().filter(|&&x| x < 1e-6).count() == 1, "one component");

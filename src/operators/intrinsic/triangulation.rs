@@ -15,8 +15,8 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Flips per edge at most. Without rounding the algorithm ends by itself, since every flip lowers the sum of squared sides
 /// over the area of all triangles \[Bobenko07\]; with rounding that is no proof. In the plane no edge comes back, so n
-/// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need less than one
-/// flip per edge. Where flips run out, edges that are not Delaunay have weight zero.
+/// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need a few
+/// flips per edge. Where flips run out, edges that are not Delaunay have weight zero.
 const FLIPS_PER_EDGE: u64 = 1000;
 
 /// A side is `3t + c` as a half-edge of `Connectivity` is: from corner c of triangle t to corner (c + 1) % 3.
