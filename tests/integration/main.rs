@@ -11,6 +11,7 @@ mod exact;
 mod extremes;
 mod features;
 mod fem;
+mod filters;
 mod hierarchy;
 mod io_malformed;
 mod io_read;
