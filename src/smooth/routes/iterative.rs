@@ -97,6 +97,7 @@ fn refined_within(
         count: task.loads.len(),
         length: n,
         tolerance: TOLERANCE,
+        inverse_norm: None,
         residual: &|c, x| task.problem.residual(&task.loads[c], x),
         solve: &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];

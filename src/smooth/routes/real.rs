@@ -54,6 +54,7 @@ impl RealRoute {
             count: task.loads.len(),
             length: n,
             tolerance: task.tolerance(precision),
+            inverse_norm: None,
             residual: &|c, x| task.problem.residual(&task.loads[c], x),
             solve: &mut |b, _| factor.solve(b),
         })?;
