@@ -5,7 +5,7 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::system::Mass;
+use super::routes::Mass;
 
 /// Of (LᵀWL + εB) x = εBf with a positive definite B, given a lower bound of the matrix's smallest eigenvalue: ε‖B‖/λ, the
 /// bound of the paper, or √(‖B‖‖B⁻¹‖), since ‖x − x_e‖_B ≤ ‖e‖_B, whichever is less. For B = I it is 1 and attained by constants.

@@ -4,7 +4,8 @@ use super::bounds;
 use super::channels::Channels;
 use super::constraints::{ConstraintSet, LeftOut};
 use super::report::{Facts, Smoothed, SolverReport, finish};
-use super::system::{Attraction, FullSystem, Mass, Solved, difference};
+use super::routes::{Mass, difference};
+use super::system::{Attraction, FullSystem, Solved};
 use super::{Phase, Progress, Smoother};
 use crate::error::Result;
 

@@ -1,8 +1,8 @@
 //! The smallest eigenvalue of a system's matrix, which tells how much a solution can move.
 
+use super::Problem;
 use crate::error::SolveError;
 use crate::mesh::shapes::Random;
-use crate::smooth::system::Problem;
 use crate::solve::norm;
 
 /// The fewest steps, in which the start is forgotten, and the most.
