@@ -61,7 +61,7 @@ fn solve(
         let solved = system.solve(&smoother.mesh, &group, *epsilon, attraction, manner, progress)?;
         let mass = system.mass().unwrap_or(&Mass::Identity);
         if manner.bounds {
-            factor = perturbation_factor(attraction, mass, &solved, *epsilon);
+            factor = perturbation_factor(mass, &solved, *epsilon);
         }
         progress(Phase::Report, 0.95);
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(&solved.solutions)) {
@@ -93,11 +93,11 @@ fn solve(
     Ok(Smoothed { values: interleaved, reports })
 }
 
-fn perturbation_factor(attraction: &Attraction, mass: &Mass, solved: &Solved, epsilon: f64) -> Option<f64> {
+fn perturbation_factor(mass: &Mass, solved: &Solved, epsilon: f64) -> Option<f64> {
+    if solved.unknowns == 0 {
+        return Some(1.0);
+    }
     // The system was divided by this.
     let epsilon = epsilon / epsilon.max(1.0);
-    match attraction {
-        Attraction::Metric(..) => bounds::tikhonov(mass, solved.unknowns, epsilon, solved.smallest_eigenvalue),
-        Attraction::Constraints { .. } => bounds::least_squares(mass, epsilon, solved.smallest_eigenvalue),
-    }
+    bounds::regularized(mass, solved.unknowns, epsilon, solved.smallest_eigenvalue)
 }

@@ -59,7 +59,7 @@ impl RealRoute {
             solve: &mut |b, _| factor.solve(b),
         })?;
         let eigenvalue = match task.manner.bounds {
-            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b))?,
+            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b)),
             false => None,
         };
         Ok(self.factors.answer(task.key, factor, iterates, "cholesky", eigenvalue))
