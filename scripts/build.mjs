@@ -41,7 +41,9 @@ function wasmInputs() {
 }
 
 function bundleInputs() {
-  const sources = readdirSync(inRoot('src', 'js')).map((name) => join('src', 'js', name));
+  const sources = readdirSync(inRoot('src', 'js'), { recursive: true })
+    .filter((name) => /\.(js|mjs|ts)$/.test(name))
+    .map((name) => join('src', 'js', name));
   return ['package.json', join('pkg', WASM), join('scripts', 'build.mjs'), ...sources];
 }
 

@@ -1,4 +1,5 @@
 // What must hold: measured figures beside targets (which fail the comparison) and aims.
+import { CHANNELS, EQUATIONS } from './calls.mjs';
 import { median } from './clock.mjs';
 import { SHIFTS } from './speed.mjs';
 import { number, printTable, size } from './table.mjs';
@@ -81,6 +82,15 @@ function callGoals({ samples = {}, facts } = {}) {
     goal(`equation (5), first call / CHOLMOD ${label}`, ratio('A', 'first'), 1, 0.7),
     goal(`equation (3), next ε / CHOLMOD ${label}`, ratio('A3', 'next'), 0.6, 0.4),
     goal(`equation (5), next ε / CHOLMOD ${label}`, ratio('A', 'next'), 0.9, 0.6),
+    goal(`equation (7), first call / CHOLMOD ${label}`, ratio('A7', 'first'), 1),
+    goal(`equation (6), harmonic, first call / CHOLMOD ${label}`, ratio('L6', 'first'), 0.9),
+    ...EQUATIONS.map(({ system, name }) =>
+      goal(
+        `${CHANNELS} channels / one, ${name} ${label}`,
+        median(samples[`${system}/channels`]) / median(samples[`${system}/first`]),
+        1.5,
+      ),
+    ),
   ];
 }
 

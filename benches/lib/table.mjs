@@ -1,4 +1,5 @@
 // Tables as text.
+import { CHANNELS, EQUATIONS } from './calls.mjs';
 import { median } from './clock.mjs';
 
 /** Prints rows of texts, the first one as the head; all but the first column to the right. */
@@ -41,14 +42,15 @@ export function printSpeed({ samples, facts }, systems) {
 }
 
 export function printCalls({ samples }) {
-  const rows = [['seconds', 'first round', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD']];
-  for (const [system, name] of [
-    ['A3', 'equation (3), metric identity'],
-    ['A', 'equation (5), metric mass'],
-  ]) {
-    const kinds = ['first', 'cholmod-first', 'next', 'cholmod-next'];
-    const medians = kinds.map((kind) => number(median(samples[`${system}/${kind}`])));
-    rows.push([name, number(samples[`${system}/first`][0]), ...medians]);
+  const rows = [
+    ['seconds', 'first round', 'first call', 'CHOLMOD', 'next ε', 'CHOLMOD', `${CHANNELS} channels`, '÷ one'],
+  ];
+  for (const { system, name, next } of EQUATIONS) {
+    const time = (kind) => median(samples[`${system}/${kind}`]);
+    const again = next ? [number(time('next')), number(time('cholmod-next'))] : ['', ''];
+    const several = [number(time('channels')), number(time('channels') / time('first'))];
+    const first = [samples[`${system}/first`][0], time('first'), time('cholmod-first')].map(number);
+    rows.push([name, ...first, ...again, ...several]);
   }
   printTable(rows);
 }
