@@ -12,6 +12,7 @@ mod extremes;
 mod features;
 mod fem;
 mod hierarchy;
+mod intrinsic;
 mod io_malformed;
 mod io_read;
 mod io_write;
