@@ -155,9 +155,13 @@ function operators(mesh, { weights, operator }) {
   return { L, square: multiply(transpose(L), divided) };
 }
 
-const SYSTEMS = ['cotangent', 'uniform', 'meanValue', 'normalizedCotangent']
-  .map((weights) => ({ weights }))
-  .concat([{ operator: 'fem' }, { solver: 'cg' }, { solver: 'cg', weights: 'meanValue' }, { precision: 'single' }]);
+const WEIGHTS = ['cotangent', 'intrinsicDelaunay', 'uniform', 'meanValue', 'normalizedCotangent'];
+const SYSTEMS = WEIGHTS.map((weights) => ({ weights })).concat([
+  { operator: 'fem' },
+  { solver: 'cg' },
+  { solver: 'cg', weights: 'meanValue' },
+  { precision: 'single' },
+]);
 const FIXED = [3, 11, 20, 28];
 
 describe('interpolate', () => {
@@ -213,7 +217,7 @@ describe('interpolate', () => {
   it('certifies what the maximum principle promises', () => {
     const mesh = make(coarse);
     const around = neighbours(coarse);
-    for (const weights of ['cotangent', 'uniform', 'meanValue', 'normalizedCotangent']) {
+    for (const weights of WEIGHTS) {
       const L = dense(mesh.laplacian({ weights }));
       const interpolate = (energy) => {
         return new Smoother(mesh, { weights }).interpolate(noise(coarse, 7), { constraints: FIXED, energy });
@@ -380,7 +384,7 @@ describe('bounds', () => {
   const factorOf = (mesh, method, options, smoother) =>
     new Smoother(mesh, { ...smoother, bounds: true })[method](f, options).report.perturbationFactor;
 
-  it.each([{}, { weights: 'uniform' }, { weights: 'meanValue' }, { operator: 'fem' }])(
+  it.each([{}, { weights: 'intrinsicDelaunay' }, { weights: 'meanValue' }, { operator: 'fem' }])(
     'hold, and are those of the paper: interpolate, %o',
     (options) => {
       const mesh = make(coarse);
