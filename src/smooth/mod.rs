@@ -3,6 +3,7 @@
 mod bounds;
 mod channels;
 mod constraints;
+mod filters;
 mod interpolate;
 mod least_squares;
 mod maximum_principle;
@@ -13,6 +14,7 @@ mod system;
 mod tikhonov;
 
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
+pub use filters::{BilateralOptions, LowPassOptions};
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use maximum_principle::MaximumPrinciple;
@@ -285,6 +287,106 @@ impl Smoother {
         progress: Progress<'_>,
     ) -> Result<Smoothed> {
         least_squares::run(self, values, options, progress)
+    }
+
+    /// Filters by repeated averaging with the neighbours: diffusion \[Patane09, sections 2.2 and 4.1\], or, with a negative μ, the
+    /// low-pass filter of \[Taubin95\].
+    ///
+    /// # Definition
+    /// With K = D⁻¹L, D the diagonal of L, every iteration is x ← (I − μK)(I − λK) x. [`SmootherOptions::operator`] makes no
+    /// difference to it.
+    ///
+    /// # Properties
+    /// Linear; constants are kept; T(af + b) = aT(f) + b; Σ d_i x_i = Σ d_i f_i where L is symmetric. Vertices whose row of L is
+    /// zero keep their value to the last bit, as all do without iterations. An eigenvector of K with the eigenvalue k is
+    /// multiplied by ((1 − μk)(1 − λk))^N in N iterations. Without negative weights, as mean value and uniform ones are,
+    /// k lies between 0 and 2. Then λ ≤ 1 lets nothing grow, and diffusion is an average: no value leaves the range of
+    /// the input. With μ < −λ low frequencies, k < 1/λ + 1/μ, grow a little instead of shrinking. Negative cotangents can
+    /// have larger k, and values grow without bounds where the product is beyond 1.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for λ, μ or channels; `Diverged` where a value is
+    /// beyond a million times the range of the input. Nothing is lost by them.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{LowPassOptions, Smoother, SmootherOptions};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let options = LowPassOptions { iterations: 20, lambda: 0.5, mu: -0.53, ..LowPassOptions::default() };
+    /// let report = smoother.low_pass(&field, &options)?.reports.remove(0);
+    /// assert!(report.after.minima < report.before.minima);
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn low_pass(&self, values: &[f64], options: &LowPassOptions) -> Result<Smoothed> {
+        self.low_pass_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::low_pass`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::low_pass`].
+    pub fn low_pass_with_progress(
+        &self,
+        values: &[f64],
+        options: &LowPassOptions,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        filters::low_pass(self, values, options, progress)
+    }
+
+    /// Filters by averages over balls, weighted by distance and by difference of value: what differs much counts little, so
+    /// that steps stay.
+    ///
+    /// # Definition
+    /// Every iteration is x_i ← x_i + Σ φ_d(|p_j − p_i|) φ_v(x_j − x_i) (x_j − x_i) / Σ φ_d(|p_j − p_i|) φ_v(x_j − x_i) for all
+    /// vertices at once, over the vertices within the radius of p_i, itself included, along straight lines and not along the
+    /// surface; φ(t) = exp(−t²/(2σ²)) with the σ of each \[Patane09, section 2.2\], \[Tomasi98\]. The paper prints |x_j − x_i|
+    /// where the difference needs its sign, or values could but rise, and takes variances where these σ are standard
+    /// deviations.
+    ///
+    /// # Properties
+    /// Constants are kept, and no value leaves the range of the input; T(af + b) = aT(f) + b with `sigma_value` scaled by |a|.
+    /// Not linear, so there is no perturbation factor. The result does not depend on L. Isolated vertices keep their value and
+    /// are no neighbours; a vertex without others within the radius keeps its value to the last bit.
+    ///
+    /// # Units
+    /// `radius` and `sigma_distance` are lengths in those of the mesh, `sigma_value` is in those of the field.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for the radius, a σ or channels.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{BilateralOptions, Smoother, SmootherOptions};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let options = BilateralOptions { iterations: 3, radius: 0.4, sigma_distance: 0.2, sigma_value: 0.3, channels: 1 };
+    /// let report = smoother.bilateral(&field, &options)?.reports.remove(0);
+    /// assert!(report.after.minima < report.before.minima);
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn bilateral(&self, values: &[f64], options: &BilateralOptions) -> Result<Smoothed> {
+        self.bilateral_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::bilateral`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::bilateral`].
+    pub fn bilateral_with_progress(
+        &self,
+        values: &[f64],
+        options: &BilateralOptions,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        filters::bilateral(self, values, options, progress)
     }
 
     fn reach(&self) -> &Reach {

@@ -7,7 +7,8 @@ use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{
-    ConstraintInput, INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, from_rule, read, read_smooth,
+    BILATERAL, ConstraintInput, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, from_rule, read,
+    read_smooth,
 };
 use crate::smooth::{Phase, Smoothed, Smoother};
 
@@ -57,6 +58,19 @@ impl RawSmoother {
         let mut tell = teller(self.on_progress.as_ref());
         let smoothed = self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell);
         Ok(result(&smoothed.map_err(from_rule)?))
+    }
+
+    #[wasm_bindgen(js_name = lowPass)]
+    pub fn low_pass(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let options = read(options, &[LOW_PASS])?.low_pass()?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.low_pass_with_progress(&floats(values)?, &options, &mut tell)?))
+    }
+
+    pub fn bilateral(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let options = read(options, &[BILATERAL])?.bilateral()?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.bilateral_with_progress(&floats(values)?, &options, &mut tell)?))
     }
 }
 

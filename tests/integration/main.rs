@@ -11,6 +11,7 @@ mod exact;
 mod extremes;
 mod features;
 mod fem;
+mod filters;
 mod hierarchy;
 mod intrinsic;
 mod io_malformed;

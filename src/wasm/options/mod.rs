@@ -4,7 +4,7 @@ mod constraints;
 mod smoothing;
 
 pub(super) use constraints::{ConstraintInput, from_rule};
-pub(super) use smoothing::{INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, read_smooth};
+pub(super) use smoothing::{BILATERAL, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read_smooth};
 
 use js_sys::{Array, Object};
 use wasm_bindgen::{JsCast, JsValue};
