@@ -201,6 +201,7 @@ describe('other options that are refused', () => {
       ['leastSquares', 'cutoffWavelength', 1],
       ['leastSquares', 'method', 'leastSquares'],
       ['tikhonov', 'constraints', [1]],
+      ['tikhonov', 'constraints', 'all'],
       ['tikhonov', 'unconstrained', 'keep'],
     ]) {
       const options = { ...(good[method] ?? { epsilon: 1 }), [option]: value };
