@@ -8,8 +8,9 @@ use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
 use morse_smooth::smooth::{
-    Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Operator, Precision, Smoothed, Smoother,
-    SmootherOptions, TikhonovOptions, Unconstrained, constrained_vertices, epsilon_for_wavelength,
+    BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Operator,
+    Precision, Smoothed, Smoother, SmootherOptions, TikhonovOptions, Unconstrained, constrained_vertices,
+    epsilon_for_wavelength,
 };
 use morse_smooth::wasm::{RawSmoother, RawTriMesh, Thrown, read_field, read_mesh, smooth, version, write_mesh};
 use wasm_bindgen::prelude::*;
@@ -468,6 +469,35 @@ fn check_constrained(found: &JsValue, wanted: &Smoothed, context: &str) {
         assert!(value.is_some(), "{context}: {name}");
     }
     assert!(get(&report, "maximumPrinciple").is_null());
+}
+
+#[wasm_bindgen_test]
+fn filters_are_those_of_rust() {
+    let mesh = torus();
+    let f = noise(mesh.vertex_count());
+    let mut native = Smoother::new(&mesh, SmootherOptions::default()).expect("cotangents");
+    let mut smoother = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
+    let taubin = LowPassOptions { iterations: 7, lambda: 0.4, mu: -0.45, channels: 1 };
+    let wanted = native.low_pass(&f, &taubin).expect("steps");
+    let given = js("{ iterations: 7, lambda: 0.4, mu: -0.45 }");
+    let found: JsValue = smoother.low_pass(&array(&f), &given).ok().expect("steps").into();
+    assert_eq!(floats(&found, "values"), wanted.values);
+    let plain = LowPassOptions { iterations: 3, ..LowPassOptions::default() };
+    let wanted = native.low_pass(&f, &plain).expect("steps");
+    let found: JsValue = smoother.low_pass(&array(&f), &js("{ iterations: 3 }")).ok().expect("steps").into();
+    assert_eq!(floats(&found, "values"), wanted.values);
+    let options = BilateralOptions { iterations: 2, radius: 0.6, sigma_distance: 0.3, sigma_value: 0.7, channels: 1 };
+    let wanted = native.bilateral(&f, &options).expect("steps");
+    let given = js("{ iterations: 2, radius: 0.6, sigmaDistance: 0.3, sigmaValue: 0.7 }");
+    let found: JsValue = smoother.bilateral(&array(&f), &given).ok().expect("steps").into();
+    // To the last bit: the exponential function is not the platform's.
+    assert_eq!(floats(&found, "values"), wanted.values);
+    assert_eq!(number(&get(&get(&found, "report"), "solver"), "iterations"), 2.0);
+    for text in ["undefined", "{}", "{ iterations: -1 }", "{ iterations: 1, lambda: 2, radius: 0 }"] {
+        let codes =
+            [thrown(smoother.low_pass(&array(&f), &js(text))).0, thrown(smoother.bilateral(&array(&f), &js(text))).0];
+        assert!(codes.iter().all(|code| ["InvalidOption", "UnknownOption"].contains(&code.as_str())), "{text}");
+    }
 }
 
 #[wasm_bindgen_test]
