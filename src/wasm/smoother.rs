@@ -45,6 +45,7 @@ impl RawSmoother {
     }
 
     #[wasm_bindgen(js_name = leastSquares)]
+    #[allow(clippy::needless_pass_by_value, reason = "wasm-bindgen hands what may be missing over by value")]
     pub fn least_squares(
         &mut self,
         values: &Float64Array,

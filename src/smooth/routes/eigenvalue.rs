@@ -10,15 +10,15 @@ const STEPS: core::ops::Range<usize> = 8..80;
 /// The residual that is small enough, relative to the eigenvalue.
 const TOLERANCE: f64 = 0.01;
 
+/// Solves the system with a right side.
+type Solve<'a> = &'a mut dyn FnMut(&[f64]) -> Result<Vec<f64>, SolveError>;
+
 /// A lower bound of the smallest eigenvalue of a symmetric positive definite matrix; none where it cannot be told from
 /// rounding.
 ///
 /// Inverse iteration comes down to it from above. An eigenvalue lies within the residual of its last quotient, and so what is
 /// returned is the quotient less the residual.
-pub(super) fn smallest_eigenvalue(
-    problem: &Problem<'_>,
-    solve: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, SolveError>,
-) -> Result<Option<f64>, SolveError> {
+pub(super) fn smallest_eigenvalue(problem: &Problem<'_>, solve: Solve<'_>) -> Result<Option<f64>, SolveError> {
     let mut random = Random::new(1);
     let mut v: Vec<f64> = (0..problem.unknowns()).map(|_| random.signed()).collect();
     let mut bound = 0.0_f64;
