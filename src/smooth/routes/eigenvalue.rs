@@ -13,15 +13,15 @@ const TOLERANCE: f64 = 0.01;
 /// seen if it were below this part: that share grows by 0.7⁻¹⁶ = 300 in the fewest steps, and its residual past the tolerance.
 const SHARE: f64 = 0.7;
 
+/// Solves a system with the matrix.
+type Solve<'a> = dyn FnMut(&[f64]) -> Result<Vec<f64>, SolveError> + 'a;
+
 /// A lower bound of the smallest eigenvalue of a symmetric positive definite matrix; none where it cannot be told from
 /// rounding, or a system cannot be solved.
 ///
 /// Inverse iteration comes down to it from above. An eigenvalue lies within the residual of its last quotient, and so what is
 /// returned is the quotient less the residual, and less a margin: that eigenvalue may be the next one to the smallest.
-pub(super) fn smallest_eigenvalue(
-    problem: &Problem<'_>,
-    solve: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, SolveError>,
-) -> Option<f64> {
+pub(super) fn smallest_eigenvalue(problem: &Problem<'_>, solve: &mut Solve<'_>) -> Option<f64> {
     let mut random = Random::new(1);
     let mut v: Vec<f64> = (0..problem.unknowns()).map(|_| random.signed()).collect();
     let mut bound = 0.0_f64;
