@@ -121,7 +121,7 @@ impl Reference {
         let mut fixed = DVector::from_column_slice(f);
         free.iter().for_each(|&v| fixed[v] = 0.0);
         let rest = self.laplacian.select_rows(&rows);
-        let (matrix, residual): (_, Box<dyn Fn(&[f64]) -> Vec<f64>>) = match energy {
+        let (matrix, residual): (_, Box<Residual<'_>>) = match energy {
             Energy::Harmonic => {
                 let residual = |g: &[f64]| {
                     let image = sum(times(&a, &exactly(g)), &times(&rest, &exactly(fixed.as_slice())));
@@ -195,8 +195,11 @@ pub(crate) fn squared(a: &DMatrix<f64>, weights: &[f64]) -> DMatrix<f64> {
     a.tr_mul(&scaled)
 }
 
+/// What the right-hand side is more than the matrix times x.
+type Residual<'a> = dyn Fn(&[f64]) -> Vec<f64> + 'a;
+
 /// Corrects until corrections are rounding.
-fn solve(matrix: DMatrix<f64>, residual: &dyn Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+fn solve(matrix: DMatrix<f64>, residual: &Residual<'_>) -> Vec<f64> {
     let mut x = DVector::zeros(matrix.ncols());
     if matrix.is_empty() {
         return Vec::new();
