@@ -27,9 +27,14 @@ impl Channel {
         Self { values, range, normalized }
     }
 
-    /// Back in the units of the input.
-    pub(super) fn denormalized(&self, x: f64) -> f64 {
-        self.range.min + self.range.length() * x
+    /// Normalised values back in the units of the input. Only `changed` vertices can have new ones: the others keep theirs to the
+    /// last bit.
+    pub(super) fn restored(&self, x: &[f64], changed: &[u32]) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for &v in changed {
+            values[v as usize] = self.range.min + self.range.length() * x[v as usize];
+        }
+        values
     }
 }
 

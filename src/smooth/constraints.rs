@@ -1,6 +1,6 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
-use super::channels::Channels;
+use super::channels::{Channel, Channels};
 use super::system::Reach;
 use crate::error::{Result, SmoothError};
 use crate::field::{Features, feature_points, with_stars};
@@ -130,5 +130,34 @@ impl LeftOut {
     /// Whether a vertex gets another value than it had, though it is no unknown.
     pub(super) fn moves(&self, reach: &Reach, vertex: u32) -> bool {
         self.takes_mean && reach.component(vertex).is_some_and(|component| self.is_left_out[component])
+    }
+}
+
+/// Components in which all constrained values are the same have this value everywhere by every method. A solver comes to it but
+/// for rounding, which would have critical points; so these values are written as they are, into the normalised ones and the
+/// others.
+pub(super) fn level_constant_components(
+    reach: &Reach,
+    set: &ConstraintSet,
+    channel: &Channel,
+    x: &mut [f64],
+    smoothed: &mut [f64],
+) {
+    let mut example = vec![None; reach.first_vertices().len()];
+    let mut varies = vec![false; example.len()];
+    for &v in &set.vertices {
+        if let Some(component) = reach.component(v) {
+            let first = *example[component].get_or_insert(v);
+            varies[component] |= channel.values[v as usize] != channel.values[first as usize];
+        }
+    }
+    for &v in reach.active() {
+        if let Some(component) = reach.component(v)
+            && let Some(first) = example[component]
+            && !varies[component]
+        {
+            x[v as usize] = channel.normalized[first as usize];
+            smoothed[v as usize] = channel.values[first as usize];
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Interpolation of constrained values, eq. (6) of \[Patane09\].
 
 use super::channels::{Channel, Channels};
-use super::constraints::{ConstraintSet, Constraints, LeftOut};
-use super::report::{Facts, Smoothed, SolverReport, finish};
+use super::constraints::{ConstraintSet, Constraints, LeftOut, level_constant_components};
+use super::report::{Facts, Smoothed, SolverReport, measure};
 use super::system::{ReducedSystem, Solved};
 use super::{Energy, Phase, Progress, Smoother, bounds, maximum_principle};
 use crate::error::Result;
@@ -64,6 +64,8 @@ fn solve(
             for (&v, &value) in system.free().iter().zip(&solution.x) {
                 x[v as usize] = value;
             }
+            let mut values = channel.restored(&x, &changed);
+            level_constant_components(reach, set, channel, &mut x, &mut values);
             let certificate = is_harmonic.then(|| {
                 maximum_principle::certify(smoother.mesh.connectivity(), &smoother.laplacian, system.free(), &x)
             });
@@ -77,9 +79,8 @@ fn solve(
                 maximum_principle: certificate,
                 solver: SolverReport::new(&solved, solution),
             };
-            let (values, report) = finish(smoother, channel, &x, &changed, facts)?;
+            reports.push(measure(smoother, channel, &x, &values, facts)?);
             channels.write(c, &values, &mut interleaved);
-            reports.push(report);
         }
     }
     progress(Phase::Report, 1.0);

@@ -68,7 +68,7 @@ const ABOVE: u8 = 4;
 fn side(difference: f64) -> u8 {
     // Without branches, which could not be foretold where a field is rough.
     let (below, above) = (u8::from(difference < -ROUNDING), u8::from(difference > ROUNDING));
-    below * BELOW | above * ABOVE | (1 - below - above) * NEAR
+    (below * BELOW) | (above * ABOVE) | ((1 - below - above) * NEAR)
 }
 
 /// Vertices with all neighbours on one side.

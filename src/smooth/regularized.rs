@@ -2,8 +2,8 @@
 
 use super::bounds;
 use super::channels::Channels;
-use super::constraints::{ConstraintSet, LeftOut};
-use super::report::{Facts, Smoothed, SolverReport, finish};
+use super::constraints::{ConstraintSet, LeftOut, level_constant_components};
+use super::report::{Facts, Smoothed, SolverReport, measure};
 use super::routes::{Mass, difference};
 use super::system::{Attraction, FullSystem, Solved};
 use super::{Phase, Progress, Smoother};
@@ -74,19 +74,23 @@ fn solve(
                 f.push(channel.normalized[v as usize]);
                 x[v as usize] = value;
             }
+            let metric_norm = mass.norm(&difference(&solution.x, &f));
+            let mut values = channel.restored(&x, &changed);
+            if let Some((set, _)) = constraints {
+                level_constant_components(reach, set, channel, &mut x, &mut values);
+            }
             let facts = Facts {
                 method,
                 equation,
                 epsilon: Some(*epsilon),
                 constraints: constraints.as_ref().map(|(set, _)| *set),
-                metric_norm: Some(mass.norm(&difference(&solution.x, &f))),
+                metric_norm: Some(metric_norm),
                 perturbation_factor: factor,
                 maximum_principle: None,
                 solver: SolverReport::new(&solved, solution),
             };
-            let (values, report) = finish(smoother, channel, &x, &changed, facts)?;
+            reports.push(measure(smoother, channel, &x, &values, facts)?);
             channels.write(c, &values, &mut interleaved);
-            reports.push(report);
         }
     }
     progress(Phase::Report, 1.0);

@@ -131,28 +131,23 @@ pub(super) struct Facts<'a> {
     pub(super) solver: SolverReport,
 }
 
-/// Brings a normalised result back to the units of the input, and measures it. Only `changed` vertices can have new values:
-/// the others keep theirs to the last bit.
-pub(super) fn finish(
+/// Measures a result: x normalised, and the same in the units of the input.
+pub(super) fn measure(
     smoother: &Smoother,
     channel: &Channel,
     x: &[f64],
-    changed: &[u32],
+    smoothed: &[f64],
     facts: Facts<'_>,
-) -> Result<(Vec<f64>, SmoothReport)> {
+) -> Result<SmoothReport> {
     let f = &channel.normalized;
-    let mut smoothed = channel.values.clone();
-    for &v in changed {
-        smoothed[v as usize] = channel.denormalized(x[v as usize]);
-    }
     let difference = difference(x, f);
     let energies_before = energies(&smoother.laplacian, f);
     let energies_after = energies(&smoother.laplacian, x);
     let before = critical_points(&smoother.mesh, &channel.values, &DeltaOptions::default())?;
-    let after = critical_points(&smoother.mesh, &smoothed, &DeltaOptions::default())?;
+    let after = critical_points(&smoother.mesh, smoothed, &DeltaOptions::default())?;
     let kept = facts.constraints.map(|set| Kept::new(set, &before, &after));
     let l2 = norm(&difference);
-    let report = SmoothReport {
+    Ok(SmoothReport {
         method: facts.method,
         equation: facts.equation,
         epsilon: facts.epsilon,
@@ -171,8 +166,7 @@ pub(super) fn finish(
         perturbation_factor: facts.perturbation_factor,
         maximum_principle: facts.maximum_principle,
         solver: facts.solver,
-    };
-    Ok((smoothed, report))
+    })
 }
 
 /// What became of critical points under constraints.

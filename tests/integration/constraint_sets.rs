@@ -62,6 +62,28 @@ fn an_empty_set() {
     }
 }
 
+/// Where all constrained values of a component are the same, so are all of its values, to the last bit: no rounding makes
+/// critical points of it.
+#[test]
+fn equal_constraints_make_a_component_constant() {
+    let mesh = two_components();
+    let mut f = noise(mesh.vertex_count(), 4);
+    f[3] = f[1];
+    let last = mesh.vertex_count() as u32 - 3;
+    for setting in settings() {
+        let mut smoother = smoother(&mesh, setting, SolverChoice::Auto);
+        for method in METHODS {
+            for vertices in [vec![1], vec![3, 1], vec![1, last], vec![1, 2, last]] {
+                let found = run(&mut smoother, &f, method, named(&vertices, Unconstrained::Keep), 1).unwrap();
+                let count = |vertex: u32| found.values.iter().filter(|&&x| x == f[vertex as usize]).count();
+                // The torus has 63 vertices, the grid 16.
+                assert_eq!(count(1) == 63, !vertices.contains(&2), "{setting:?} {method:?} {vertices:?}");
+                assert_eq!(count(last) == 16, vertices.contains(&last), "{setting:?} {method:?} {vertices:?}");
+            }
+        }
+    }
+}
+
 /// Every component without a constrained vertex at its mean.
 fn means(reference: &Reference, f: &[f64], constrained: &[u32]) -> Vec<f64> {
     let reached = reference.reached(constrained);

@@ -1,26 +1,21 @@
 //! The Laplacian of the intrinsic Delaunay triangulation against planar Delaunay triangulations found by trying all circles:
 //! of flat pieces, of pieces that are folded, and of surfaces that unfold to periodic patterns of the plane.
 
-use morse_smooth::mesh::shapes::{self, Random};
+use morse_smooth::mesh::shapes::Random;
 use morse_smooth::mesh::{LinkKind, TriMesh};
-use morse_smooth::operators::{
-    LaplacianWeights, cotan_laplacian, galerkin_mass, intrinsic_delaunay_laplacian, laplacian,
-};
-use morse_smooth::smooth::{Metric, Smoother, SmootherOptions, SolverChoice, TikhonovOptions};
-use nalgebra::{DMatrix, DVector};
+use morse_smooth::operators::intrinsic_delaunay_laplacian;
+use nalgebra::DMatrix;
 
-use crate::support::{
-    book_of_three, dense, every_kind, jittered, jittered_plane, mesh, noise, random_complex, shuffle,
-};
+use crate::support::{dense, mesh, shuffle};
 
 type Point = [f64; 2];
 
 /// Twice the signed area.
-fn turn(a: Point, b: Point, c: Point) -> f64 {
+pub(crate) fn turn(a: Point, b: Point, c: Point) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-fn distance(a: Point, b: Point) -> f64 {
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
@@ -93,22 +88,22 @@ fn planar_laplacian(points: &[Point], vertices: &[usize], triangles: &[[usize; 3
     matrix
 }
 
-fn assert_close(name: &str, found: &DMatrix<f64>, expected: &DMatrix<f64>, tolerance: f64) {
+pub(crate) fn assert_close(name: &str, found: &DMatrix<f64>, expected: &DMatrix<f64>, tolerance: f64) {
     let difference = (found - expected).abs().max();
     assert!(difference <= tolerance * expected.abs().max(), "{name}: {difference:e} of {:e}", expected.abs().max());
 }
 
-fn intrinsic(mesh: &TriMesh) -> DMatrix<f64> {
+pub(crate) fn intrinsic(mesh: &TriMesh) -> DMatrix<f64> {
     dense(&intrinsic_delaunay_laplacian(mesh))
 }
 
-fn to_mesh(positions: &[[f64; 3]], triangles: &[[usize; 3]]) -> TriMesh {
+pub(crate) fn to_mesh(positions: &[[f64; 3]], triangles: &[[usize; 3]]) -> TriMesh {
     let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|v| v as u32)).collect();
     mesh(positions, &triangles)
 }
 
 /// The least that two sides of a triangle have more than the third, as a fraction of the mean length.
-fn slack(mesh: &TriMesh) -> f64 {
+pub(crate) fn slack(mesh: &TriMesh) -> f64 {
     let length = |a: u32, b: u32| {
         let (p, q) = (mesh.position(a), mesh.position(b));
         (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2])
@@ -123,7 +118,7 @@ fn slack(mesh: &TriMesh) -> f64 {
 }
 
 /// What is promised whatever the mesh.
-fn assert_sound(name: &str, mesh: &TriMesh) {
+pub(crate) fn assert_sound(name: &str, mesh: &TriMesh) {
     let sparse = intrinsic_delaunay_laplacian(mesh);
     for &[a, b] in mesh.connectivity().edges() {
         for (i, j) in [(a, b), (b, a)] {
@@ -431,214 +426,6 @@ fn diagonals_of_plane_sides_do_not_matter() {
             let found = intrinsic(&frustum);
             assert_sound("frustum", &frustum);
             assert_close("frustum", &found, first.get_or_insert_with(|| found.clone()), 1e-12);
-        }
-    }
-}
-
-fn varied() -> Vec<(String, TriMesh)> {
-    let mut all: Vec<(String, TriMesh)> =
-        every_kind().into_iter().map(|(name, mesh)| (name.to_owned(), mesh)).collect();
-    for seed in 0..6 {
-        all.push((format!("sphere {seed}"), jittered(&shapes::sphere(2).unwrap(), 0.12, seed)));
-        all.push((format!("torus {seed}"), shapes::torus(12, 5, 0.9).unwrap()));
-        all.push((format!("thin torus {seed}"), jittered(&shapes::torus(5, 14, 0.2).unwrap(), 0.1, seed)));
-        all.push((format!("klein bottle {seed}"), jittered(&shapes::klein_bottle(9, 8).unwrap(), 0.2, seed)));
-        all.push((format!("moebius {seed}"), jittered(&shapes::moebius(7, 5).unwrap(), 0.1, seed)));
-        all.push((format!("plane {seed}"), jittered(&jittered_plane(9, 8, seed), 0.08, seed)));
-        all.push((format!("needle {seed}"), jittered(&shapes::tetrahedron().unwrap(), 0.99, seed)));
-        all.push((format!("complex {seed}"), random_complex(seed, 10, 8 + 5 * seed as usize)));
-    }
-    all
-}
-
-/// Rippa's theorem: fᵀLf is smallest for the Delaunay triangulation, whatever f is.
-#[test]
-fn no_energy_is_larger_than_the_cotangent_one() {
-    let mut smaller = 0;
-    for (name, mesh) in varied() {
-        assert_sound(&name, &mesh);
-        if slack(&mesh) < 1e-5 {
-            continue;
-        }
-        let (flipped, plain) = (intrinsic(&mesh), dense(&cotan_laplacian(&mesh)));
-        let size = plain.abs().max();
-        let least = (&plain - &flipped).symmetric_eigenvalues().min();
-        assert!(least >= -1e-11 * size, "{name}: larger by {:e} of {size:e}", -least);
-        let regular = mesh.connectivity().edges().iter().enumerate().all(|(e, &[a, b])| {
-            mesh.connectivity().triangles_of_edge(e as u32).len() != 2 || plain[(a as usize, b as usize)] <= 0.0
-        });
-        if regular {
-            assert_close(&format!("{name}, Delaunay already"), &flipped, &plain, 1e-12);
-        } else {
-            smaller += 1;
-            assert!((&plain - &flipped).abs().max() > 1e-9 * size, "{name}: nothing was flipped");
-        }
-    }
-    assert!(smaller > 20, "{smaller}");
-    let sphere = shapes::sphere(3).unwrap();
-    assert_close("sphere", &intrinsic(&sphere), &dense(&cotan_laplacian(&sphere)), 1e-12);
-    // Three triangles at every interior edge, and a boundary: nothing can be flipped.
-    let book = book_of_three();
-    assert_close("book", &intrinsic(&book), &dense(&cotan_laplacian(&book)), 1e-12);
-}
-
-#[test]
-fn neither_units_nor_the_order_of_corners_matter() {
-    for (seed, (name, base)) in varied().into_iter().enumerate() {
-        let expected = intrinsic(&base);
-        let triangles = base.connectivity().triangles().as_flattened().to_vec();
-        for factor in [1e-300, 1e-160, 1e-6, 3.7, 1e74] {
-            let positions: Vec<f64> = base.positions().iter().map(|x| x * factor).collect();
-            if positions.iter().all(|x| x.abs() < 1e75) {
-                let scaled = TriMesh::new(positions, triangles.clone()).unwrap();
-                assert_close(&format!("{name} times {factor:e}"), &intrinsic(&scaled), &expected, 1e-9);
-            }
-        }
-        let mut random = Random::new(seed as u64);
-        let mut turned = base.connectivity().triangles().to_vec();
-        turned.iter_mut().for_each(|t| shuffle(t, &mut random));
-        shuffle(&mut turned, &mut random);
-        let turned = TriMesh::new(base.positions().to_vec(), turned.as_flattened().to_vec()).unwrap();
-        assert_close(&format!("{name}, in another order"), &intrinsic(&turned), &expected, 1e-9);
-    }
-}
-
-/// Where all circles are one, any triangulation will do, and the boundary alone has weights.
-#[test]
-fn vertices_on_one_circle() {
-    for n in [4_u32, 6, 50, 101] {
-        let step = std::f64::consts::TAU / f64::from(n);
-        let positions: Vec<[f64; 3]> =
-            (0..n).map(|v| [(step * f64::from(v)).cos(), (step * f64::from(v)).sin(), 0.0]).collect();
-        // Triangles about the middle one, so that no side is nearly as long as the others together.
-        let mut triangles = Vec::new();
-        let mut halves = vec![(0, n / 3), (n / 3, 2 * n / 3), (2 * n / 3, n)];
-        triangles.push([0, n / 3, 2 * n / 3]);
-        while let Some((a, b)) = halves.pop() {
-            if b - a > 1 {
-                let middle = (a + b) / 2;
-                triangles.push([a, middle, b % n]);
-                halves.extend([(a, middle), (middle, b)]);
-            }
-        }
-        let polygon = mesh(&positions, &triangles);
-        assert!(slack(&polygon) > 1e-5, "lengths must stay");
-        let found = intrinsic(&polygon);
-        // The angle at the circle over a side is half of that at the centre.
-        let w = 0.5 / (0.5 * step).tan();
-        for i in 0..n as usize {
-            for j in 0..n as usize {
-                let apart = (i + n as usize - j) % n as usize;
-                let expected = if i == j {
-                    2.0 * w
-                } else if apart == 1 || apart == n as usize - 1 {
-                    -w
-                } else {
-                    0.0
-                };
-                assert!((found[(i, j)] - expected).abs() <= 1e-9 * w, "{n}: {i}, {j}: {}", found[(i, j)]);
-            }
-        }
-    }
-    // Squares: their diagonals weigh nothing and the edges keep the cotangents of 45° and 90°.
-    let grid = shapes::grid(30, 30).unwrap();
-    assert_close("grid", &intrinsic(&grid), &dense(&cotan_laplacian(&grid)), 1e-11);
-}
-
-/// (a² + b² − c²) / 4A by Heron's formula.
-fn cotangent(a: f64, b: f64, c: f64) -> f64 {
-    let s = (a + b + c) / 2.0;
-    (a * a + b * b - c * c) / (4.0 * (s * (s - a) * (s - b) * (s - c)).sqrt())
-}
-
-#[test]
-fn triangles_without_area_take_part() {
-    // Lengths 1, 1 and 2: 1e-5 of their mean is missing.
-    let line = mesh(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.]], &[[0, 1, 2]]);
-    let more = 1e-5 * 4.0 / 3.0;
-    let (short, long) = (1.0 + more, 2.0 + more);
-    let (base, apex) = (0.5 * cotangent(short, long, short), 0.5 * cotangent(short, short, long));
-    let expected = DMatrix::from_row_slice(
-        3,
-        3,
-        &[base + apex, -base, -apex, -base, 2.0 * base, -base, -apex, -base, base + apex],
-    );
-    assert_close("line", &intrinsic(&line), &expected, 1e-9);
-
-    // All in one place: nothing to measure, so all sides are alike.
-    for at in [0.0, 3.0] {
-        let point = mesh(&[[at; 3]; 4], &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);
-        assert_close("point", &intrinsic(&point), &dense(&cotan_laplacian(&shapes::tetrahedron().unwrap())), 1e-14);
-    }
-
-    // Two vertices of a sphere in one place, and a vertex upon an edge.
-    let base = jittered(&shapes::sphere(2).unwrap(), 0.03, 1);
-    let triangles = base.connectivity().triangles().to_vec();
-    let mut positions: Vec<[f64; 3]> = (0..base.vertex_count() as u32).map(|v| base.position(v)).collect();
-    let [a, b, c] = triangles[10].map(|v| v as usize);
-    positions[a] = positions[b];
-    let (p, q) = (positions[b], positions[triangles[40][0] as usize]);
-    positions[c] = [0, 1, 2].map(|x| 0.5 * (p[x] + q[x]));
-    let collapsed = mesh(&positions, &triangles);
-    assert_sound("collapsed", &collapsed);
-    assert!(intrinsic(&collapsed).symmetric_eigenvalues().iter().filter(|&&x| x < 1e-6).count() == 1, "one component");
-}
-
-#[test]
-fn the_worst_meshes_stay_finite() {
-    // Needles, slivers, and lengths from end to end of the numbers.
-    for stretch in [1e-300, 1e-16, 1e-8, 1e-4, 1e4, 1e8, 1e16, 1e70] {
-        for (name, base) in varied() {
-            let positions: Vec<f64> =
-                base.positions().iter().enumerate().map(|(i, x)| if i % 3 == 0 { x * stretch } else { *x }).collect();
-            let triangles = base.connectivity().triangles().as_flattened().to_vec();
-            assert_sound(&format!("{name} stretched {stretch:e}"), &TriMesh::new(positions, triangles).unwrap());
-        }
-    }
-    // Few places for many vertices.
-    for seed in 0..200 {
-        let base = random_complex(seed, 9, 4 + seed as usize % 60);
-        let positions: Vec<f64> = base.positions().iter().map(|x| (1.4 * x).round()).collect();
-        let triangles = base.connectivity().triangles().as_flattened().to_vec();
-        assert_sound(&format!("crowd {seed}"), &TriMesh::new(positions, triangles).unwrap());
-    }
-    // Vertices on a line, and a fan of a parabola, which takes many flips per edge.
-    for curve in [0.0, 1e-3, 1.0] {
-        let n = 150_u32;
-        let mut positions: Vec<[f64; 3]> =
-            (0..n).map(|v| f64::from(v) / f64::from(n)).map(|x| [x, curve * x * x, 0.0]).collect();
-        positions.push([0.5, 40.0, 0.0]);
-        let mut triangles: Vec<[u32; 3]> = (1..n - 1).map(|v| [0, v, v + 1]).collect();
-        triangles.push([0, n - 1, n]);
-        assert_sound("fan", &mesh(&positions, &triangles));
-    }
-}
-
-#[test]
-fn it_smooths() {
-    for (name, mesh) in varied() {
-        if mesh.topology().isolated_vertices > 0 || mesh.area() == 0.0 {
-            continue;
-        }
-        let (f, n) = (noise(mesh.vertex_count(), 5), mesh.vertex_count());
-        let matrix = dense(&laplacian(&mesh, LaplacianWeights::IntrinsicDelaunay).unwrap());
-        for metric in [Metric::Identity, Metric::Mass] {
-            let mass = match metric {
-                Metric::Mass => dense(&galerkin_mass(&mesh, Default::default()).unwrap()),
-                _ => DMatrix::identity(n, n),
-            };
-            let epsilon = 0.05;
-            let system = matrix.transpose() * &matrix + &mass * epsilon;
-            let expected = system.lu().solve(&(&mass * DVector::from_vec(f.clone()) * epsilon)).unwrap();
-            for solver in [SolverChoice::Auto, SolverChoice::Cholesky, SolverChoice::ConjugateGradient] {
-                let weights = LaplacianWeights::IntrinsicDelaunay;
-                let options = SmootherOptions { weights, solver, ..SmootherOptions::default() };
-                let mut smoother = Smoother::new(&mesh, options).unwrap();
-                let options = TikhonovOptions { epsilon, metric, ..TikhonovOptions::default() };
-                let found = DVector::from_vec(smoother.tikhonov(&f, &options).unwrap().values);
-                let error = (found - &expected).abs().max();
-                assert!(error < 1e-7, "{name} {metric:?} {solver:?}: {error:e}");
-            }
         }
     }
 }

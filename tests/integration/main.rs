@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod bands;
+mod bilateral;
 mod bounds;
 mod cholesky;
 mod constrained;
@@ -19,6 +20,7 @@ mod fem;
 mod filters;
 mod hierarchy;
 mod intrinsic;
+mod intrinsic_properties;
 mod io_malformed;
 mod io_read;
 mod io_write;

@@ -11,7 +11,7 @@ pub(super) use bilateral::run as bilateral;
 pub(super) use low_pass::run as low_pass;
 
 use super::channels::{Channel, Channels};
-use super::report::{Facts, Smoothed, SolverReport, finish};
+use super::report::{Facts, Smoothed, SolverReport, measure};
 use super::{Phase, Progress, Smoother};
 use crate::error::{OptionError, Result};
 
@@ -72,9 +72,9 @@ fn apply(
                 maximum_principle: None,
                 solver: SolverReport::none(filter.iterations),
             };
-            let (values, report) = finish(smoother, channel, x, &changed, facts)?;
+            let values = channel.restored(x, &changed);
+            reports.push(measure(smoother, channel, x, &values, facts)?);
             channels.write(c, &values, &mut interleaved);
-            reports.push(report);
         }
     }
     progress(Phase::Report, 1.0);

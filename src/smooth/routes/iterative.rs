@@ -2,7 +2,7 @@
 
 use super::eigenvalue::smallest_eigenvalue;
 use super::refine::{Iterate, Refinement, refine};
-use super::{Answer, Inner, Order, Task};
+use super::{Answer, Inner, Mass, Order, Task};
 use crate::error::SolveError;
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
 
@@ -13,6 +13,8 @@ const CG_TOLERANCE: f64 = 1e-6;
 const ROUGH_RESIDUAL: f64 = 0.5;
 /// A good preconditioner takes ten to twenty iterations; past this many, rounding prevails.
 const MOST_PRECONDITIONED: usize = 200;
+/// Where not all unknowns are pulled, the preconditioner is a rough one, and takes more the larger the mesh is.
+const MOST_ROUGHLY_PRECONDITIONED: usize = 2000;
 /// The inner tolerance of a second attempt.
 const TIGHT: f64 = 1e-8;
 /// The relative error at which refinement stops.
@@ -77,7 +79,12 @@ pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -
 
 /// Conjugate gradients with a good preconditioner, refined.
 pub(super) fn refined(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Result<Vec<Iterate>, SolveError> {
-    refined_within(task, preconditioner, MOST_PRECONDITIONED)
+    let is_rough = match task.problem.pull.map(|pull| pull.mass) {
+        Some(Mass::Diagonal(masses)) => masses.contains(&0.0),
+        Some(_) => false,
+        None => task.problem.order == Order::Squared,
+    };
+    refined_within(task, preconditioner, if is_rough { MOST_ROUGHLY_PRECONDITIONED } else { MOST_PRECONDITIONED })
 }
 
 fn refined_within(

@@ -152,7 +152,10 @@ impl Routes {
         let mut first_failure = None;
         for &route in task.candidates() {
             // Iterations hardly go where a factor did not; they only need less memory.
-            let hopeless = first_failure.as_ref().is_some_and(|f| !matches!(f, SolveError::OutOfMemory { .. }));
+            // They do where nothing pulls: there it is the square that a factor fails at, and multigrid has the root of it.
+            let by_root = task.problem.pull.is_none() && task.problem.inner.is_some();
+            let hopeless =
+                !by_root && first_failure.as_ref().is_some_and(|f| !matches!(f, SolveError::OutOfMemory { .. }));
             if route == Route::Iterative && hopeless {
                 break;
             }
