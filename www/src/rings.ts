@@ -34,8 +34,8 @@ export class RingLayer {
     transparent: true,
     opacity: 0.55,
   });
-  private readonly fine = { inner: torus(0.1, 6, 32), outer: torus(0.23, 6, 32) };
-  private readonly coarse = { inner: torus(0.12, 3, 14), outer: torus(0.25, 3, 14) };
+  private readonly fine = { inner: torus(0.15, 6, 32), outer: torus(0.27, 6, 32) };
+  private readonly coarse = { inner: torus(0.16, 3, 14), outer: torus(0.29, 3, 14) };
 
   clear(): void {
     for (const child of [...this.group.children]) {

@@ -17,9 +17,7 @@ import {
   NearestFilter,
   PerspectiveCamera,
   Scene,
-  Raycaster,
   SRGBColorSpace,
-  Vector2,
   Vector3,
   WebGLRenderer,
   WireframeGeometry,
@@ -30,6 +28,7 @@ import { CurveLayer } from './curves';
 import { GlyphLayer, glyphRadius } from './glyphs';
 import { Marker } from './marker';
 import type { LitPoints } from './marker';
+import { hitOf, listenToClicks, nearestOf } from './picking';
 import type { DisplayMesh, Found } from './protocol';
 import { RingLayer } from './rings';
 
@@ -40,8 +39,6 @@ const MARGIN = 1.1;
 /** Radians a key press turns the view by, and the factor it zooms by. */
 const KEY_TURN = Math.PI / 24;
 const KEY_ZOOM = 1.12;
-/** A pointer that moves more pixels between down and up turns the view and picks nothing. */
-const STILL = 4;
 /** Of rings, by the radius of glyphs. */
 const RING = 1.75;
 
@@ -139,7 +136,10 @@ export class Viewer {
       this.onMove?.();
     });
     canvas.addEventListener('keydown', (event) => this.onKey(event));
-    this.listenToClicks();
+    listenToClicks(canvas, (clientX, clientY) => {
+      const vertex = this.vertexAt(clientX, clientY);
+      if (vertex !== null) this.onPick?.(vertex);
+    });
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
   }
@@ -316,49 +316,20 @@ export class Viewer {
   /** Around glyphs, and no smaller where the glyphs are many and the constraints few. */
   private get ringSize(): number {
     const count = this.constrained?.features.length ?? 0;
-    return RING * Math.max(this.glyphSize, Math.min(0.011, glyphRadius(this.mesh!.area, 4 * count)));
-  }
-
-  private listenToClicks(): void {
-    const { canvas } = this;
-    let from: [number, number] | null = null;
-    canvas.addEventListener('pointerdown', ({ button, isPrimary, clientX, clientY }) => {
-      from = button === 0 && isPrimary ? [clientX, clientY] : null;
-    });
-    canvas.addEventListener('pointerup', ({ clientX, clientY }) => {
-      if (!from || Math.hypot(clientX - from[0], clientY - from[1]) > STILL) return;
-      const vertex = this.vertexAt(clientX, clientY);
-      if (vertex !== null) this.onPick?.(vertex);
-    });
+    return RING * Math.max(this.glyphSize, Math.min(0.014, glyphRadius(this.mesh!.area, 4 * count)));
   }
 
   /** The constrained vertex or the critical point whose sign is there, else the nearest corner of the triangle. */
   private vertexAt(clientX: number, clientY: number): number | null {
-    const { mesh, model, canvas } = this;
+    const { mesh, model, surface } = this;
     if (!mesh || !model.visible) return null;
-    const { left, top, width, height } = canvas.getBoundingClientRect();
-    const at = new Vector2((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
-    const ray = new Raycaster();
-    ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObject(this.surface, false)[0];
-    if (!hit?.face) return null;
-    const place = model.worldToLocal(hit.point.clone());
-    const point = new Vector3();
-    const nearest = (vertices: Iterable<number>, reach: number): number | null => {
-      let best: number | null = null;
-      let least = reach;
-      for (const vertex of vertices) {
-        const distance = point.fromArray(mesh.positions, 3 * vertex).distanceTo(place);
-        if (distance >= least) continue;
-        least = distance;
-        best = vertex;
-      }
-      return best;
-    };
-    const { a, b, c } = hit.face;
+    const hit = hitOf(surface, model, this.camera, this.canvas, clientX, clientY);
+    if (!hit) return null;
+    const nearest = (vertices: Iterable<number>, reach: number): number | null =>
+      nearestOf(vertices, mesh.positions, hit.place, reach);
     const marked = nearest(this.constrained?.features ?? [], this.ringSize);
     const critical = this.layers.glyphs ? nearest(this.critical?.vertices ?? [], this.glyphSize) : null;
-    return marked ?? critical ?? nearest([a, b, c], Infinity);
+    return marked ?? critical ?? nearest(hit.corners, Infinity);
   }
 
   private resize(): void {

@@ -106,7 +106,7 @@ function change(report: AfterReport): Group {
       smoothing && smoothing.perturbationFactor !== null
         ? line(
             'Error bound',
-            `× ${short(smoothing.perturbationFactor)}`,
+            `≤ ${short(smoothing.perturbationFactor)} ‖e‖₂`,
             'If the values change by e, the result changes by at most this times ‖e‖₂',
             'report-bound',
           )
