@@ -451,7 +451,7 @@ fn wrong_options_are_refused_by_name() {
     assert_eq!(floats(&again, "values"), floats(&good, "values"));
     for (text, code) in [
         ("{ weights: 'cotan' }", "InvalidOption"),
-        ("{ weights: 'intrinsicDelaunay' }", "UnsupportedOption"),
+        ("{ operator: 'fem', weights: 'intrinsicDelaunay' }", "InapplicableOption"),
         ("{ operator: 'fem', weights: 'uniform' }", "InapplicableOption"),
         ("{ operator: 'finite' }", "InvalidOption"),
         ("{ precision: 'half' }", "InvalidOption"),

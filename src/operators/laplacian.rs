@@ -1,8 +1,8 @@
-//! Laplacians with the weights of \[Patane09, section 4.1\].
+//! Laplacians with the weights of \[Patane09, section 4.1\], and the choice among all there are.
 
 use nalgebra_sparse::CscMatrix;
 
-use super::assemble;
+use super::{assemble, from_symmetric, intrinsic_delaunay_laplacian};
 use crate::error::MeshError;
 use crate::mesh::{TriMesh, difference, dot, norm};
 
@@ -18,6 +18,8 @@ pub enum LaplacianWeights {
     Cotangent,
     /// Floater's mean value coordinates; not symmetric.
     MeanValue,
+    /// (cot α + cot β)/2 in the intrinsic Delaunay triangulation; symmetric.
+    IntrinsicDelaunay,
     /// Cotangent weights, every row divided by its sum; not symmetric.
     NormalizedCotangent,
     /// 1 for every edge; symmetric.
@@ -28,7 +30,7 @@ impl LaplacianWeights {
     /// Whether w_ij = w_ji.
     #[must_use]
     pub fn is_symmetric(self) -> bool {
-        matches!(self, Self::Cotangent | Self::Uniform)
+        matches!(self, Self::Cotangent | Self::IntrinsicDelaunay | Self::Uniform)
     }
 }
 
@@ -39,6 +41,7 @@ impl LaplacianWeights {
 pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<f64>, MeshError> {
     match weights {
         LaplacianWeights::Cotangent => Ok(cotan_laplacian(mesh)),
+        LaplacianWeights::IntrinsicDelaunay => Ok(intrinsic_delaunay_laplacian(mesh)),
         LaplacianWeights::MeanValue => mean_value_laplacian(mesh),
         LaplacianWeights::NormalizedCotangent => normalized_cotan_laplacian(mesh),
         LaplacianWeights::Uniform => Ok(uniform_laplacian(mesh)),
@@ -69,7 +72,7 @@ pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<
 /// ```
 #[must_use]
 pub fn cotan_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
-    from_symmetric(mesh, &cotan_weights(mesh))
+    from_symmetric(mesh.vertex_count(), mesh.connectivity().edges(), &cotan_weights(mesh))
 }
 
 /// The graph Laplacian: w_ij = 1 for every edge.
@@ -78,7 +81,7 @@ pub fn cotan_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
 /// n × n, symmetric, positive semi-definite, without units; the diagonal holds the valences.
 #[must_use]
 pub fn uniform_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
-    from_symmetric(mesh, &vec![1.0; mesh.edge_count()])
+    from_symmetric(mesh.vertex_count(), mesh.connectivity().edges(), &vec![1.0; mesh.edge_count()])
 }
 
 /// The cotangent Laplacian with every row divided by its sum of weights.
@@ -149,17 +152,6 @@ fn cotan_weights(mesh: &TriMesh) -> Vec<f64> {
     weights
 }
 
-fn from_symmetric(mesh: &TriMesh, weights: &[f64]) -> CscMatrix<f64> {
-    let mut diagonal = vec![0.0; mesh.vertex_count()];
-    let mut sides = Vec::with_capacity(weights.len());
-    for (&[a, b], &w) in mesh.connectivity().edges().iter().zip(weights) {
-        diagonal[a as usize] += w;
-        diagonal[b as usize] += w;
-        sides.push([-w, -w]);
-    }
-    assemble(mesh, &diagonal, &sides)
-}
-
 /// Divides the weights of every vertex by their sum.
 fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>) -> Result<CscMatrix<f64>, MeshError> {
     let mut sums = vec![0.0_f64; mesh.vertex_count()];
@@ -187,5 +179,5 @@ fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>) -> Result<CscMatrix<f64>
             }
         }
     }
-    Ok(assemble(mesh, &diagonal, &sides))
+    Ok(assemble(edges, &diagonal, &sides))
 }

@@ -54,7 +54,7 @@ pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>,
             }
         }
     }
-    Ok(assemble(mesh, &diagonal, &sides))
+    Ok(assemble(connectivity.edges(), &diagonal, &sides))
 }
 
 /// The lumped mass matrix: a third of the area of the triangles at every vertex on the diagonal, the row sums of

@@ -2,9 +2,11 @@
 //!
 //! Sign: Laplacians are positive semi-definite where symmetric: l_ii = Σ w_ij, l_ij = −w_ij, every row sums to zero.
 
+mod intrinsic;
 mod laplacian;
 mod mass;
 
+pub use intrinsic::intrinsic_delaunay_laplacian;
 pub use laplacian::{
     LaplacianWeights, cotan_laplacian, laplacian, mean_value_laplacian, normalized_cotan_laplacian, uniform_laplacian,
 };
@@ -12,16 +14,25 @@ pub use mass::{MassScale, galerkin_mass, lumped_mass, lumped_mass_diagonal};
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::mesh::TriMesh;
+/// The symmetric Laplacian with these weights of these edges: see [`assemble`].
+fn from_symmetric(n: usize, edges: &[[u32; 2]], weights: &[f64]) -> CscMatrix<f64> {
+    let mut diagonal = vec![0.0; n];
+    let mut sides = Vec::with_capacity(weights.len());
+    for (&[a, b], &w) in edges.iter().zip(weights) {
+        diagonal[a as usize] += w;
+        diagonal[b as usize] += w;
+        sides.push([-w, -w]);
+    }
+    assemble(edges, &diagonal, &sides)
+}
 
 /// A matrix with `diagonal` and, for every edge (a, b), the entries `sides[0]` at (a, b) and `sides[1]` at (b, a). The
-/// diagonal is always stored, so that patterns depend on the connectivity only.
+/// diagonal is always stored, and so is every edge whatever its entries: who has the edges knows the pattern.
 ///
-/// The edges come in lexicographic order, so the columns fill in the order of their rows and nothing needs sorting, which
-/// triplets would.
-fn assemble(mesh: &TriMesh, diagonal: &[f64], sides: &[[f64; 2]]) -> CscMatrix<f64> {
-    let n = mesh.vertex_count();
-    let edges = mesh.connectivity().edges();
+/// The edges, a < b, each once, come in lexicographic order, so the columns fill in the order of their rows and nothing needs
+/// sorting, which triplets would.
+fn assemble(edges: &[[u32; 2]], diagonal: &[f64], sides: &[[f64; 2]]) -> CscMatrix<f64> {
+    let n = diagonal.len();
     let (mut below, mut above) = (vec![0_usize; n], vec![0_usize; n]);
     for &[a, b] in edges {
         above[a as usize] += 1;

@@ -41,6 +41,80 @@ pub(super) fn interpolation(fixed: f64, singular_value: Option<f64>) -> Option<f
     })
 }
 
+/// Of ((I − μK)(I − λK))^N with K = D⁻¹L, for the diagonal D of L and the steps [λ, μ]. Rows without a positive diagonal keep
+/// their values.
+///
+/// Where L is symmetric, K is similar to D^(−½)LD^(−½), which is so too, and its eigenvalues lie between 0 and ‖K‖_∞: the
+/// factor is √(max d/min d) times the N-th power of the largest |(1 − μk)(1 − λk)|. Otherwise, or where that is less, it comes
+/// from powers of ‖·‖₁ and ‖·‖_∞ of both steps, by ‖P‖₂ ≤ √(‖P‖₁‖P‖_∞) and ‖P‖₂ ≤ √n·min(‖P‖₁, ‖P‖_∞).
+pub(super) fn low_pass(
+    laplacian: &CscMatrix<f64>,
+    diagonal: &[f64],
+    is_symmetric: bool,
+    steps: [f64; 2],
+    iterations: usize,
+) -> Option<f64> {
+    let n = diagonal.len();
+    let (mut rows, mut columns) = (vec![0.0_f64; n], vec![0.0_f64; n]);
+    // A row that keeps its value though others pull at it is a row of no symmetric matrix.
+    let mut is_similar = is_symmetric;
+    for (i, j, &value) in laplacian.triplet_iter() {
+        if i != j && diagonal[i] > 0.0 {
+            let size = value.abs() / diagonal[i];
+            rows[i] += size;
+            columns[j] += size;
+        } else if i != j && value != 0.0 {
+            is_similar = false;
+        }
+    }
+    let (mut by_rows, mut by_columns) = (1.0, 1.0);
+    for step in steps {
+        let (mut row, mut column) = (0.0_f64, 0.0_f64);
+        for i in 0..n {
+            let own = if diagonal[i] > 0.0 { (1.0 - step).abs() } else { 1.0 };
+            row = row.max(own + step.abs() * rows[i]);
+            column = column.max(own + step.abs() * columns[i]);
+        }
+        by_rows *= row;
+        by_columns *= column;
+    }
+    let root = (n as f64).sqrt();
+    let mut factor = power((by_rows * by_columns).sqrt(), iterations);
+    factor = factor.min(root * power(by_rows, iterations)).min(root * power(by_columns, iterations));
+    // Weights that overflowed bound nothing.
+    if is_similar && by_rows.is_finite() {
+        let (mut least, mut most, mut largest) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        for (&d, &row) in diagonal.iter().zip(&rows).filter(|(d, _)| **d > 0.0) {
+            least = least.min(d);
+            most = most.max(d);
+            largest = largest.max(1.0 + row);
+        }
+        factor = factor.min((most / least).sqrt() * power(largest_response(steps, largest), iterations));
+    }
+    finite(factor)
+}
+
+/// The largest |(1 − μk)(1 − λk)| for k from 0 to `largest`: at an end, or where the derivative is zero.
+fn largest_response([lambda, mu]: [f64; 2], largest: f64) -> f64 {
+    let response = |k: f64| ((1.0 - mu * k) * (1.0 - lambda * k)).abs();
+    let turn = 0.5 * (1.0 / lambda + 1.0 / mu);
+    let between = if turn > 0.0 && turn < largest { response(turn) } else { 0.0 };
+    response(largest).max(between).max(1.0)
+}
+
+/// By squaring, in an order of its own: that of `powi` depends on the platform.
+fn power(base: f64, exponent: usize) -> f64 {
+    let (mut result, mut square, mut left) = (1.0, base, exponent);
+    while left > 0 {
+        if left & 1 == 1 {
+            result *= square;
+        }
+        square *= square;
+        left >>= 1;
+    }
+    result
+}
+
 /// A bound of the norm of some columns, with a factor for each row: the root of the largest sum of a row times that of a column.
 pub(super) fn norm_of_columns(
     matrix: &CscMatrix<f64>,

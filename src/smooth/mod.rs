@@ -3,9 +3,11 @@
 mod bounds;
 mod channels;
 mod constraints;
+mod filters;
 mod interpolate;
 mod least_squares;
 mod maximum_principle;
+mod options;
 mod regularized;
 mod report;
 mod routes;
@@ -13,9 +15,11 @@ mod system;
 mod tikhonov;
 
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
+pub use filters::{BilateralOptions, LowPassOptions};
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use maximum_principle::MaximumPrinciple;
+pub use options::{Operator, Phase, Precision, Progress, SmootherOptions, SolverChoice};
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
 pub use system::Energy;
 pub use tikhonov::{Metric, TikhonovOptions, epsilon_for_wavelength};
@@ -27,86 +31,6 @@ use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
 use constraints::LeftOut;
 use system::{FullSystem, Manner, Reach, ReducedSystem};
-
-/// Which solver a [`Smoother`] uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SolverChoice {
-    /// The fastest route that is exact for the system at hand, and leaner ones where memory is short. The default.
-    #[default]
-    Auto,
-    /// Sparse Cholesky with iterative refinement, complex where that is exact (see `SolverReport::route`).
-    Cholesky,
-    /// Conjugate gradients on the system in factored form, preconditioned by multigrid where L is symmetric: little memory.
-    ConjugateGradient,
-}
-
-/// The operator whose square is the smoothness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Operator {
-    /// LᵀL, as in \[Patane09\]: what ε does depends on how fine the mesh is. The default.
-    #[default]
-    Paper,
-    /// L M⁻¹ L beside εM, with the cotangent Laplacian L and the lumped masses M in the mesh's own units: finite elements
-    /// for the Laplace–Beltrami operator, so that what ε does depends on the surface alone. Its eigenfunctions are damped
-    /// by ε/(λ² + ε).
-    Fem,
-}
-
-/// The precision of factors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    /// Double. The default.
-    #[default]
-    Double,
-    /// Single, refined to double accuracy: half the memory, and faster where the system is well conditioned. Where it is
-    /// not, the factor is computed in double precision after all.
-    Single,
-}
-
-/// What a [`Smoother`] is made with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct SmootherOptions {
-    /// The weights of L. Default cotangent.
-    pub weights: LaplacianWeights,
-    /// The operator. Default the paper's.
-    pub operator: Operator,
-    /// The solver. Default automatic.
-    pub solver: SolverChoice,
-    /// The precision of factors; conjugate gradients without a factor are always in double. Default double.
-    pub precision: Precision,
-    /// Whether reports tell how far results move when the input does, which costs some more solves. Default false.
-    pub bounds: bool,
-}
-
-/// A step of the work, for progress displays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Phase {
-    /// Ordering and analysing the pattern of L, or of LᵀL once that is assembled; again only where the route changes.
-    Analysis,
-    /// The numeric factorisation; once per ε and metric. Left out where a route has no factor, as analysis is.
-    Factorization,
-    /// Solving and refining.
-    Solve,
-    /// Counting critical points and norms.
-    Report,
-}
-
-impl Phase {
-    /// A short name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Analysis => "analysis",
-            Self::Factorization => "factorization",
-            Self::Solve => "solve",
-            Self::Report => "report",
-        }
-    }
-}
-
-/// Told at the start of every phase, with the fraction of the work that is done; that goes back where a route is given up
-/// for another one.
-pub type Progress<'a> = &'a mut dyn FnMut(Phase, f64);
 
 /// Smooths fields on one mesh. Holds the operators, the ordering and the symbolic and last numeric factor, so that a new
 /// field costs a solve and a new ε one numeric factorisation.
@@ -285,6 +209,106 @@ impl Smoother {
         progress: Progress<'_>,
     ) -> Result<Smoothed> {
         least_squares::run(self, values, options, progress)
+    }
+
+    /// Filters by repeated averaging with the neighbours: diffusion \[Patane09, sections 2.2 and 4.1\], or, with a negative μ, the
+    /// low-pass filter of \[Taubin95\].
+    ///
+    /// # Definition
+    /// With K = D⁻¹L, D the diagonal of L, every iteration is x ← (I − μK)(I − λK) x. [`SmootherOptions::operator`] makes no
+    /// difference to it.
+    ///
+    /// # Properties
+    /// Linear; constants are kept; T(af + b) = aT(f) + b; Σ d_i x_i = Σ d_i f_i where L is symmetric. Vertices whose row of L is
+    /// zero keep their value to the last bit, as all do without iterations. An eigenvector of K with the eigenvalue k is
+    /// multiplied by ((1 − μk)(1 − λk))^N in N iterations. Without negative weights, as mean value and uniform ones are,
+    /// k lies between 0 and 2. Then λ ≤ 1 lets nothing grow, and diffusion is an average: no value leaves the range of
+    /// the input. With μ < −λ low frequencies, k < 1/λ + 1/μ, grow a little instead of shrinking. Negative cotangents can
+    /// have larger k, and values grow without bounds where the product is beyond 1.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for λ, μ or channels; `Diverged` where a value is
+    /// beyond a million times the range of the input. Nothing is lost by them.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{LowPassOptions, Smoother, SmootherOptions};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let options = LowPassOptions { iterations: 20, lambda: 0.5, mu: -0.53, ..LowPassOptions::default() };
+    /// let report = smoother.low_pass(&field, &options)?.reports.remove(0);
+    /// assert!(report.after.minima < report.before.minima);
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn low_pass(&self, values: &[f64], options: &LowPassOptions) -> Result<Smoothed> {
+        self.low_pass_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::low_pass`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::low_pass`].
+    pub fn low_pass_with_progress(
+        &self,
+        values: &[f64],
+        options: &LowPassOptions,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        filters::low_pass(self, values, options, progress)
+    }
+
+    /// Filters by averages over balls, weighted by distance and by difference of value: what differs much counts little, so
+    /// that steps stay.
+    ///
+    /// # Definition
+    /// Every iteration is x_i ← x_i + Σ φ_d(|p_j − p_i|) φ_v(x_j − x_i) (x_j − x_i) / Σ φ_d(|p_j − p_i|) φ_v(x_j − x_i) for all
+    /// vertices at once, over the vertices within the radius of p_i, itself included, along straight lines and not along the
+    /// surface; φ(t) = exp(−t²/(2σ²)) with the σ of each \[Patane09, section 2.2\], \[Tomasi98\]. The paper prints |x_j − x_i|
+    /// where the difference needs its sign, or values could but rise, and takes variances where these σ are standard
+    /// deviations.
+    ///
+    /// # Properties
+    /// Constants are kept, and no value leaves the range of the input; T(af + b) = aT(f) + b with `sigma_value` scaled by |a|.
+    /// Not linear, so there is no perturbation factor. The result does not depend on L. Isolated vertices keep their value and
+    /// are no neighbours; a vertex without others within the radius keeps its value to the last bit.
+    ///
+    /// # Units
+    /// `radius` and `sigma_distance` are lengths in those of the mesh, `sigma_value` is in those of the field.
+    ///
+    /// # Errors
+    /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for the radius, a σ or channels.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{BilateralOptions, Smoother, SmootherOptions};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let options = BilateralOptions { iterations: 3, radius: 0.4, sigma_distance: 0.2, sigma_value: 0.3, channels: 1 };
+    /// let report = smoother.bilateral(&field, &options)?.reports.remove(0);
+    /// assert!(report.after.minima < report.before.minima);
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn bilateral(&self, values: &[f64], options: &BilateralOptions) -> Result<Smoothed> {
+        self.bilateral_with_progress(values, options, &mut |_, _| {})
+    }
+
+    /// [`Smoother::bilateral`] that tells how far it is.
+    ///
+    /// # Errors
+    /// As [`Smoother::bilateral`].
+    pub fn bilateral_with_progress(
+        &self,
+        values: &[f64],
+        options: &BilateralOptions,
+        progress: Progress<'_>,
+    ) -> Result<Smoothed> {
+        filters::bilateral(self, values, options, progress)
     }
 
     fn reach(&self) -> &Reach {

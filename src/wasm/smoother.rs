@@ -6,7 +6,9 @@ use wasm_bindgen::prelude::*;
 use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
-use super::options::{ConstraintInput, INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, read, read_smooth};
+use super::options::{
+    BILATERAL, ConstraintInput, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read, read_smooth,
+};
 use crate::smooth::{Phase, Smoothed, Smoother};
 
 /// A smoother in wasm memory.
@@ -53,6 +55,19 @@ impl RawSmoother {
         let options = input.least_squares(&constraints, weights.as_deref())?;
         let mut tell = teller(self.on_progress.as_ref());
         Ok(result(&self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell)?))
+    }
+
+    #[wasm_bindgen(js_name = lowPass)]
+    pub fn low_pass(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let options = read(options, &[LOW_PASS])?.low_pass()?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.low_pass_with_progress(&floats(values)?, &options, &mut tell)?))
+    }
+
+    pub fn bilateral(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let options = read(options, &[BILATERAL])?.bilateral()?;
+        let mut tell = teller(self.on_progress.as_ref());
+        Ok(result(&self.smoother.bilateral_with_progress(&floats(values)?, &options, &mut tell)?))
     }
 }
 

@@ -22,18 +22,33 @@ describe('Laplacian', () => {
     expect(matrix[middle]).toEqual(near([expected])[0]);
   });
 
-  it.each(['cotangent', 'uniform', 'meanValue', 'normalizedCotangent'])(
+  it.each(['cotangent', 'uniform', 'meanValue', 'normalizedCotangent', 'intrinsicDelaunay'])(
     'with %s weights has rows that sum to 0',
     (weights) => {
       const mesh = make(torus(9, 7));
       const matrix = dense(mesh.laplacian({ weights }));
       for (const row of matrix) expect(sum(row)).toBeCloseTo(0, 10);
       const symmetric = matrix.every((row, i) => row.every((entry, j) => Math.abs(entry - matrix[j][i]) < 1e-12));
-      expect(symmetric).toBe(weights === 'cotangent' || weights === 'uniform');
+      expect(symmetric).toBe(!['meanValue', 'normalizedCotangent'].includes(weights));
       if (weights === 'uniform') expect(matrix[0][0]).toBe(6);
       if (weights === 'normalizedCotangent') expect(matrix[0][0]).toBeCloseTo(1, 12);
     },
   );
+
+  it('of the intrinsic Delaunay triangulation: a rhombus is cut along its shorter diagonal', () => {
+    const positions = [-2, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1, 0];
+    const mesh = new TriMesh(positions, [0, 1, 2, 0, 2, 3]);
+    const matrix = dense(mesh.laplacian({ weights: 'intrinsicDelaunay' }));
+    // The angles opposite to the diagonal have the tangent 4/3, those opposite to the sides 2.
+    const [side, diagonal] = [-0.25, -0.75];
+    const expected = [
+      [0.5, side, 0, side],
+      [side, 1.25, side, diagonal],
+      [0, side, 0.5, side],
+      [side, diagonal, side, 1.25],
+    ];
+    expect(matrix).toEqual(near(expected));
+  });
 
   it('is a matrix by columns, with ascending rows', () => {
     const { rows, columns, columnPointers, rowIndices, values } = make(octahedron()).laplacian();

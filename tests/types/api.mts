@@ -135,8 +135,9 @@ const { sobolev, laplacianNorm }: api.Smoothness = mesh.smoothness(heat, { weigh
 const matrix: api.SparseMatrix = mesh.laplacian({ weights: 'normalizedCotangent' });
 const { rows, columns, columnPointers, rowIndices, values } = matrix;
 const mass: api.SparseMatrix = mesh.mass({ kind: 'lumped', massScale: 'raw' });
-// @ts-expect-error not built yet
 mesh.laplacian({ weights: 'intrinsicDelaunay' });
+// @ts-expect-error no such weights
+mesh.laplacian({ weights: 'delaunay' });
 
 // ------------------------------------------------------------------------------------- persistence and the Morse complex
 const pairs: api.PersistencePairs = mesh.persistence([1, 2, 3]);

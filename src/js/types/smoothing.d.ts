@@ -1,8 +1,8 @@
 /**
- * Weights w_ij of the Laplacian: `"cotangent"` is (cot α + cot β)/2 of the angles facing the edge, `"uniform"` is 1;
- * `"intrinsicDelaunay"` has the cotangents of the intrinsic Delaunay triangulation, the same surface in triangles of which no
- * inner edge has a negative weight. These are symmetric; `"meanValue"`, and `"normalizedCotangent"` with each row divided by its
- * weight sum, are not.
+ * Weights w_ij of the Laplacian: `"cotangent"` is (cot α + cot β)/2 of the angles facing the edge; `"intrinsicDelaunay"` is the
+ * same after edges are flipped within the surface until no weight between two triangles is negative, which suits bad triangles,
+ * those of zero area included; `"uniform"` is 1. These are symmetric; `"meanValue"`, and `"normalizedCotangent"` with each row
+ * divided by its weight sum, are not.
  */
 export type LaplacianWeights = 'cotangent' | 'intrinsicDelaunay' | 'meanValue' | 'normalizedCotangent' | 'uniform';
 

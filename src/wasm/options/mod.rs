@@ -4,7 +4,7 @@ mod constraints;
 mod smoothing;
 
 pub(super) use constraints::ConstraintInput;
-pub(super) use smoothing::{INTERPOLATE, LEAST_SQUARES, Method, SMOOTHER, TIKHONOV, read_smooth};
+pub(super) use smoothing::{BILATERAL, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read_smooth};
 
 use js_sys::{Array, Object};
 use wasm_bindgen::{JsCast, JsValue};
@@ -136,15 +136,6 @@ fn choose<T: Copy>(option: &str, name: Option<&String>, choices: &[(&str, T)]) -
     })
 }
 
-/// As [`choose`], with names of later versions, which are refused as such.
-fn choose_supported<T: Copy>(
-    option: &str,
-    name: Option<&String>,
-    choices: &[(&str, Option<T>)],
-) -> Result<T, OptionError> {
-    choose(option, name, choices)?.ok_or_else(|| unsupported(option, name.map_or("", String::as_str)))
-}
-
 /// A threshold with what it is measured in.
 fn threshold_of(option: &str, scale: Option<&String>, threshold: f64) -> Result<Threshold, OptionError> {
     let relative = choose(option, scale, &[("relative", true), ("absolute", false)])?;
@@ -192,13 +183,13 @@ impl Options {
 
     pub(super) fn weights(&self) -> Result<LaplacianWeights, OptionError> {
         let choices = [
-            ("cotangent", Some(LaplacianWeights::Cotangent)),
-            ("meanValue", Some(LaplacianWeights::MeanValue)),
-            ("normalizedCotangent", Some(LaplacianWeights::NormalizedCotangent)),
-            ("uniform", Some(LaplacianWeights::Uniform)),
-            ("intrinsicDelaunay", None),
+            ("cotangent", LaplacianWeights::Cotangent),
+            ("meanValue", LaplacianWeights::MeanValue),
+            ("normalizedCotangent", LaplacianWeights::NormalizedCotangent),
+            ("uniform", LaplacianWeights::Uniform),
+            ("intrinsicDelaunay", LaplacianWeights::IntrinsicDelaunay),
         ];
-        choose_supported("weights", self.weights.as_ref(), &choices)
+        choose("weights", self.weights.as_ref(), &choices)
     }
 
     /// Whether the mass matrix is the lumped one.

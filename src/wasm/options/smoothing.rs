@@ -6,8 +6,8 @@ use wasm_bindgen::{JsCast, JsValue};
 use super::{ConstraintInput, Options, choose, inapplicable, invalid, is_absent, read, unsupported};
 use crate::error::OptionError;
 use crate::smooth::{
-    Energy, InterpolateOptions, LeastSquaresOptions, Metric, Operator, Precision, SmootherOptions, SolverChoice,
-    TikhonovOptions, Unconstrained, epsilon_for_wavelength,
+    BilateralOptions, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Metric, Operator, Precision,
+    SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained, epsilon_for_wavelength,
 };
 
 /// The names that `Smoother` takes.
@@ -16,6 +16,8 @@ pub(in crate::wasm) const SMOOTHER: &[&str] = &["weights", "operator", "solver",
 pub(in crate::wasm) const TIKHONOV: &[&str] = &["epsilon", "cutoffWavelength", "metric", "massScale", "channels"];
 pub(in crate::wasm) const INTERPOLATE: &[&str] = &["constraints", "unconstrained", "energy", "channels"];
 pub(in crate::wasm) const LEAST_SQUARES: &[&str] = &["constraints", "unconstrained", "epsilon", "channels"];
+pub(in crate::wasm) const LOW_PASS: &[&str] = &["iterations", "lambda", "mu", "channels"];
+pub(in crate::wasm) const BILATERAL: &[&str] = &["iterations", "radius", "sigmaDistance", "sigmaValue", "channels"];
 
 /// The methods of `smooth`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -165,5 +167,33 @@ impl Options {
     fn unconstrained(&self) -> Result<Unconstrained, OptionError> {
         let choices = [("error", Unconstrained::Error), ("keep", Unconstrained::Keep), ("mean", Unconstrained::Mean)];
         choose("unconstrained", self.unconstrained.as_ref(), &choices)
+    }
+
+    fn iterations(&self) -> Result<usize, OptionError> {
+        let missing = || invalid("iterations", "an integer that is not negative, and it has no default");
+        self.iterations.map(|iterations| iterations as usize).ok_or_else(missing)
+    }
+
+    pub(in crate::wasm) fn low_pass(&self) -> Result<LowPassOptions, OptionError> {
+        let defaults = LowPassOptions::default();
+        Ok(LowPassOptions {
+            iterations: self.iterations()?,
+            lambda: self.lambda.unwrap_or(defaults.lambda),
+            mu: self.mu.unwrap_or(defaults.mu),
+            channels: self.channels(),
+        })
+    }
+
+    pub(in crate::wasm) fn bilateral(&self) -> Result<BilateralOptions, OptionError> {
+        let given = |option: &str, value: Option<f64>| {
+            value.ok_or_else(|| invalid(option, "a positive finite number, and it has no default"))
+        };
+        Ok(BilateralOptions {
+            iterations: self.iterations()?,
+            radius: given("radius", self.radius)?,
+            sigma_distance: given("sigmaDistance", self.sigma_distance)?,
+            sigma_value: given("sigmaValue", self.sigma_value)?,
+            channels: self.channels(),
+        })
     }
 }

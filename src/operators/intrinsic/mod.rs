@@ -1,0 +1,95 @@
+//! The cotangent Laplacian of the intrinsic Delaunay triangulation.
+
+mod lengths;
+mod triangulation;
+
+use nalgebra_sparse::CscMatrix;
+
+use self::triangulation::Triangulation;
+use super::from_symmetric;
+use crate::mesh::TriMesh;
+
+/// The cotangent Laplacian of the intrinsic Delaunay triangulation.
+///
+/// # Definition
+/// The surface, with the lengths measured on it, is triangulated anew on the same vertices: edges between two triangles are
+/// flipped within the surface until the two angles opposite to each add up to π at most. The weights w_ij = Σ ½ cot α are
+/// summed over all edges of that triangulation from i to j, of which there may be several; edges from a vertex to itself
+/// contribute nothing (\[Bobenko07, definition 16\]). Edges on the boundary, and those where more than two triangles meet,
+/// stay as they are.
+///
+/// Where two sides of a triangle exceed the third by less than 1e-5 of the mean length of the edges, the least number that
+/// makes up for it is added to the length of every edge (\[Sharp20\]), so that triangles of zero area take part
+/// as all others do. Where all vertices coincide, all triangles are equilateral.
+///
+/// # Properties
+/// n × n, symmetric, positive semi-definite; constants are in its kernel. Weights are not negative, but for edges of the mesh
+/// on its boundary or with more than two triangles, which may be. fᵀLf is not larger than with the cotangent Laplacian
+/// whatever f is \[Rippa90\], and L is the same for all triangulations of one flat region. Besides the edges of the new
+/// triangulation all those of the mesh are stored, with zeros where they are flipped. Rows and columns of isolated vertices
+/// are zero.
+///
+/// # Units
+/// None: scaling the mesh does not change it.
+///
+/// # Example
+/// ```
+/// use morse_smooth::{mesh::TriMesh, operators::intrinsic_delaunay_laplacian};
+/// // A flat rhombus, cut along its longer diagonal (0, 2).
+/// let positions = vec![-2., 0., 0., 0., -1., 0., 2., 0., 0., 0., 1., 0.];
+/// let laplacian = intrinsic_delaunay_laplacian(&TriMesh::new(positions, vec![0, 1, 2, 0, 2, 3])?);
+/// let weight = |i, j| laplacian.get_entry(i, j).map_or(0.0, |entry| -entry.into_value());
+/// // The shorter diagonal takes its place. Each opposite angle has the tangent 4/3.
+/// assert_eq!(weight(0, 2), 0.0);
+/// assert!((weight(1, 3) - 0.75).abs() < 1e-15);
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+#[must_use]
+pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
+    let mut triangulation = Triangulation::new(mesh.connectivity(), lengths::edge_lengths(mesh));
+    triangulation.make_delaunay();
+    let mut weights = triangulation.weights();
+    let before = mesh.connectivity().edges();
+
+    let mut moved = Vec::new();
+    for edge in 0..before.len() as u32 {
+        if let Some(ends) = triangulation.ends(edge)
+            && ends != before[edge as usize]
+        {
+            let weight = core::mem::take(&mut weights[edge as usize]);
+            if ends[0] != ends[1] {
+                moved.push(Moved { ends, edge, weight });
+            }
+        }
+    }
+    // The id settles the order of edges with the same ends, and with it the rounding of their sum.
+    moved.sort_unstable_by_key(|moved| (moved.ends, moved.edge));
+
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(before.len() + moved.len());
+    let mut sums: Vec<f64> = Vec::with_capacity(before.len() + moved.len());
+    let mut add = |ends: [u32; 2], weight: f64| match (edges.last(), sums.last_mut()) {
+        (Some(last), Some(sum)) if *last == ends => *sum += weight,
+        _ => {
+            edges.push(ends);
+            sums.push(weight);
+        }
+    };
+    let mut rest = moved.iter().peekable();
+    for (&ends, &weight) in before.iter().zip(&weights) {
+        while let Some(next) = rest.next_if(|next| next.ends < ends) {
+            add(next.ends, next.weight);
+        }
+        add(ends, weight);
+    }
+    for next in rest {
+        add(next.ends, next.weight);
+    }
+    from_symmetric(mesh.vertex_count(), &edges, &sums)
+}
+
+/// An edge with other ends than in the mesh.
+struct Moved {
+    ends: [u32; 2],
+    edge: u32,
+    weight: f64,
+}

@@ -1,0 +1,215 @@
+//! Triangles that know the lengths of their sides and no positions, and flips of their edges.
+//!
+//! The surface is glued of triangles side by side, and nothing else is asked of it: a triangle may be glued to itself, have a
+//! vertex at several corners, or share several sides with another. Neither need it be oriented.
+
+use super::lengths::{area, four_areas_cotangent};
+use crate::mesh::Connectivity;
+
+/// No side.
+const NONE: u32 = u32::MAX;
+
+/// An edge is Delaunay where cot α + cot β is not less than zero by more than its rounding: some units in the last place of
+/// the squared sides over the areas. Without a tolerance, four vertices on a circle could be flipped to and fro.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Flips per edge at most. Without rounding the algorithm ends by itself, since every flip lowers the sum of squared sides
+/// over the area of all triangles \[Bobenko07\]; with rounding that is no proof. In the plane no edge comes back, so n
+/// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need a few
+/// flips per edge. Where flips run out, edges that are not Delaunay have weight zero.
+const FLIPS_PER_EDGE: u64 = 1000;
+
+/// A side is `3t + c` as a half-edge of `Connectivity` is: from corner c of triangle t to corner (c + 1) % 3.
+pub(super) struct Triangulation {
+    corners: Vec<[u32; 3]>,
+    /// The edge of every side.
+    edges: Vec<[u32; 3]>,
+    /// The two sides at an edge; `NONE` at a boundary and where more than two meet, which is never flipped.
+    sides: Vec<[u32; 2]>,
+    /// Whether the two sides of an edge run the same way. The vertices at its ends do not tell where they are one.
+    same_way: Vec<bool>,
+    lengths: Vec<f64>,
+    areas: Vec<f64>,
+}
+
+impl Triangulation {
+    pub(super) fn new(connectivity: &Connectivity, lengths: Vec<f64>) -> Self {
+        let corners = connectivity.triangles().to_vec();
+        let edges = connectivity.triangle_edges().to_vec();
+        let mut sides = vec![[NONE; 2]; lengths.len()];
+        let mut same_way = vec![false; lengths.len()];
+        let mut areas = Vec::with_capacity(corners.len());
+        for t in 0..corners.len() {
+            areas.push(area(edges[t].map(|e| lengths[e as usize])));
+            for c in 0..3 {
+                let edge = edges[t][c] as usize;
+                if connectivity.triangles_of_edge(edge as u32).len() == 2 {
+                    let upwards = corners[t][c] < corners[t][(c + 1) % 3];
+                    let second = usize::from(sides[edge][0] != NONE);
+                    sides[edge][second] = (3 * t + c) as u32;
+                    same_way[edge] = if second == 1 { same_way[edge] == upwards } else { upwards };
+                }
+            }
+        }
+        Self { corners, edges, sides, same_way, lengths, areas }
+    }
+
+    /// Flips edges until all that have two triangles are Delaunay.
+    pub(super) fn make_delaunay(&mut self) {
+        let count = self.sides.len();
+        let mut left = FLIPS_PER_EDGE * count as u64;
+        let mut queued = vec![false; count];
+        let mut queue = Vec::new();
+        for start in 0..count as u32 {
+            queue.push(start);
+            queued[start as usize] = true;
+            while let Some(edge) = queue.pop() {
+                queued[edge as usize] = false;
+                if left == 0 || self.is_delaunay(edge) {
+                    continue;
+                }
+                let Some(around) = self.flip(edge) else { continue };
+                left -= 1;
+                for next in around {
+                    if !queued[next as usize] {
+                        queued[next as usize] = true;
+                        queue.push(next);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether the angles opposite to an edge add up to π at most. Edges that cannot be flipped are left as they are; one
+    /// whose sides belong to the same triangle always is Delaunay, as two equal sides are opposite to acute angles.
+    fn is_delaunay(&self, edge: u32) -> bool {
+        let [side, other] = self.sides[edge as usize];
+        if side == NONE || side / 3 == other / 3 {
+            return true;
+        }
+        let [first, second] = [side, other].map(|side| self.opposite(side));
+        let [s, t] = [side, other].map(|side| self.areas[side as usize / 3]);
+        let sum = first.four_areas_cotangent * t + second.four_areas_cotangent * s;
+        sum >= -ROUNDING * (first.squares * t + second.squares * s)
+    }
+
+    fn opposite(&self, side: u32) -> Opposite {
+        let [r, p, q] =
+            rotated(self.edges[side as usize / 3], side as usize % 3).map(|edge| self.lengths[edge as usize]);
+        Opposite { four_areas_cotangent: four_areas_cotangent(r, p, q), squares: p * p + q * q + r * r }
+    }
+
+    /// Exchanges an edge between two different triangles for the other diagonal of their union, and returns the edges
+    /// around. Does nothing where a triangle of the result would have no area, which only rounding can bring about.
+    fn flip(&mut self, edge: u32) -> Option<[u32; 4]> {
+        let e = edge as usize;
+        if self.same_way[e] {
+            self.mirror(self.sides[e][1] / 3);
+        }
+        let [side, other] = self.sides[e].map(|side| side as usize);
+        let ((t, c), (u, d)) = ((side / 3, side % 3), (other / 3, other % 3));
+        // The triangles (i, j, k) and (j, i, m) become (k, i, m) and (m, j, k).
+        let ([i, j, k], [_, _, m]) = (rotated(self.corners[t], c), rotated(self.corners[u], d));
+        let ([_, jk, ki], [_, im, mj]) = (rotated(self.edges[t], c), rotated(self.edges[u], d));
+        let [a, b, p, q] = [ki, jk, im, mj].map(|edge| self.lengths[edge as usize]);
+        // With the edge as axis, k and m lie at these distances from each other along it and across.
+        let along = ((a - b) * (a + b) - (p - q) * (p + q)) / (2.0 * self.lengths[e]);
+        let across = 2.0 * (self.areas[t] + self.areas[u]) / self.lengths[e];
+        let length = (along * along + across * across).sqrt();
+        let areas = [area([a, p, length]), area([q, b, length])];
+        if areas[0] == 0.0 || areas[1] == 0.0 {
+            return None;
+        }
+        self.relocate([
+            (ki, 3 * t + (c + 2) % 3, 3 * t),
+            (im, 3 * u + (d + 1) % 3, 3 * t + 1),
+            (mj, 3 * u + (d + 2) % 3, 3 * u),
+            (jk, 3 * t + (c + 1) % 3, 3 * u + 1),
+        ]);
+        self.corners[t] = [k, i, m];
+        self.corners[u] = [m, j, k];
+        self.edges[t] = [ki, im, edge];
+        self.edges[u] = [mj, jk, edge];
+        self.sides[e] = [3 * t + 2, 3 * u + 2].map(|side| side as u32);
+        self.lengths[e] = length;
+        self.areas[t] = areas[0];
+        self.areas[u] = areas[1];
+        Some([ki, im, mj, jk])
+    }
+
+    /// Gives a triangle the other orientation.
+    fn mirror(&mut self, triangle: u32) {
+        let t = triangle as usize;
+        let [_, second, third] = self.edges[t];
+        self.relocate([(second, 3 * t + 1, 3 * t + 2), (third, 3 * t + 2, 3 * t + 1)]);
+        self.corners[t].swap(0, 1);
+        self.edges[t].swap(1, 2);
+        // Where two of its sides are glued to each other, both turn round and nothing changes.
+        for edge in self.edges[t] {
+            self.same_way[edge as usize] ^= true;
+        }
+    }
+
+    /// Tells edges that a side of theirs has another place now: (edge, old, new). All old places are looked up first, since
+    /// the sides may be glued to each other.
+    fn relocate<const N: usize>(&mut self, moves: [(u32, usize, usize); N]) {
+        let places = moves.map(|(edge, old, _)| {
+            let [first, second] = self.sides[edge as usize];
+            if first as usize == old {
+                Some(0)
+            } else if second as usize == old {
+                Some(1)
+            } else {
+                None
+            }
+        });
+        for ((edge, _, new), place) in moves.into_iter().zip(places) {
+            if let Some(place) = place {
+                self.sides[edge as usize][place] = new as u32;
+            }
+        }
+    }
+
+    /// Half the cotangents opposite to every edge, summed; not negative where an edge has two triangles.
+    pub(super) fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![0.0; self.sides.len()];
+        for (t, edges) in self.edges.iter().enumerate() {
+            // Lengths with their slack always leave an area, but a division must not depend on an argument.
+            if self.areas[t] == 0.0 {
+                continue;
+            }
+            for c in 0..3 {
+                let opposite = self.opposite((3 * t + c) as u32);
+                weights[edges[c] as usize] += opposite.four_areas_cotangent / (8.0 * self.areas[t]);
+            }
+        }
+        for (weight, sides) in weights.iter_mut().zip(&self.sides) {
+            if sides[0] != NONE && *weight < 0.0 {
+                *weight = 0.0;
+            }
+        }
+        weights
+    }
+
+    /// The vertices at the ends of an edge with two triangles, the smaller id first.
+    pub(super) fn ends(&self, edge: u32) -> Option<[u32; 2]> {
+        let [side, _] = self.sides[edge as usize];
+        if side == NONE {
+            return None;
+        }
+        let [a, b, _] = rotated(self.corners[side as usize / 3], side as usize % 3);
+        Some([a.min(b), a.max(b)])
+    }
+}
+
+/// What a triangle contributes to the angle opposite to one of its sides.
+struct Opposite {
+    four_areas_cotangent: f64,
+    /// The squares of its sides, summed.
+    squares: f64,
+}
+
+/// The items of a triangle, beginning at one of them.
+fn rotated<T: Copy>(items: [T; 3], first: usize) -> [T; 3] {
+    [items[first], items[(first + 1) % 3], items[(first + 2) % 3]]
+}
