@@ -29,7 +29,10 @@ export class Constraining {
   private components = 1;
   private hierarchy: Hierarchy | null = null;
   private pairs: Pairs | null = null;
-  private critical: Point[] = [];
+  private critical: readonly Point[] = [];
+  /** What the table has: these, and so many that are no critical points. */
+  private listed: readonly Point[] = [];
+  private ordinary = 0;
 
   private readonly table: PointTable;
   private readonly text = element('#constrained', HTMLElement);
@@ -126,7 +129,12 @@ export class Constraining {
     const found = isOn ? this.found : NONE;
     const { features, all } = found;
     const chosen = new Set(features);
-    this.table.setPoints([...this.critical, ...ordinaryPoints(this.critical, found)]);
+    const ordinary = ordinaryPoints(this.critical, found);
+    // Sorting a hundred thousand takes its time, and most changes leave the rows as they are.
+    if (this.critical !== this.listed || ordinary.length + this.ordinary > 0)
+      this.table.setPoints([...this.critical, ...ordinary]);
+    this.listed = this.critical;
+    this.ordinary = ordinary.length;
     this.table.setChosen(chosen, isOn);
     this.text.textContent = `${whole(all.length)} constrained (${whole(features.length)} feature ${features.length === 1 ? 'point' : 'points'})`;
     this.others.hidden = this.components === 1 && features.length > 0;

@@ -42,7 +42,8 @@ export function findConstraints(
   return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all: new Uint32Array(all) };
 }
 
-const WAYS = 'Or choose, under “Others”, to keep the values that nothing holds or to take their mean.';
+const WAYS =
+  'Or choose, under “Components without constraints”, to keep the values that nothing holds or to take their mean.';
 
 /** Nothing to hold the field with, which is no error: a slider comes by it. */
 export function nothingHeld({ rule, delta }: Settings): Unsmoothed {

@@ -45,6 +45,7 @@ export function pointsOf(hierarchy: Hierarchy, pairs: Pairs): Point[] {
 
 /** Constrained vertices that are no critical points. */
 export function ordinaryPoints(critical: readonly Point[], { features, values }: Found): Point[] {
+  if (features.length === 0) return [];
   const known = new Set(critical.map(({ vertex }) => vertex));
   return Array.from(features).flatMap((vertex, k) =>
     known.has(vertex) ? [] : [{ vertex, kind: ORDINARY, value: values[k]!, persistence: 0, vanishes: 0 }],
