@@ -34,7 +34,7 @@ export class RingLayer {
     transparent: true,
     opacity: 0.55,
   });
-  private readonly fine = { inner: torus(0.15, 6, 32), outer: torus(0.27, 6, 32) };
+  private readonly fine = { inner: torus(0.15, 6, 32), outer: torus(0.25, 6, 32) };
   private readonly coarse = { inner: torus(0.16, 3, 14), outer: torus(0.29, 3, 14) };
 
   clear(): void {
