@@ -168,7 +168,9 @@ export class Page {
 
   /** Elements that stick out of the page sideways, or out of the view that they are in. */
   overflow() {
-    return this.page.evaluate(() => {
+    return this.page.evaluate(async () => {
+      // The plots follow their boxes in the next frame.
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       const width = document.documentElement.clientWidth;
       return [...document.body.querySelectorAll('*')]
         .filter((element) => {

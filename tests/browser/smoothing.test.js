@@ -31,7 +31,18 @@ async function openTorus(options) {
 }
 
 describe('methods', () => {
-  const CONTROLS = ['epsilon', 'metric', 'energy', 'filter', 'mu', 'bilateral-radius', 'weights', 'bounds', 'rule'];
+  const CONTROLS = [
+    'epsilon',
+    'metric',
+    'wavelength',
+    'energy',
+    'filter',
+    'mu',
+    'bilateral-radius',
+    'weights',
+    'bounds',
+    'rule',
+  ];
 
   /** `settle`: what is chosen beside the method. */
   async function check({ method, settle = {}, options, controls, suffix }) {
@@ -102,6 +113,18 @@ describe('methods', () => {
       controls: ['bilateral-radius', 'weights'],
       suffix: 'bilateral',
     });
+  });
+
+  test('finite elements take a wavelength for ε', async () => {
+    await openTorus();
+    await page.choose('metric', 'finiteElements');
+    for (const id of ['epsilon', 'weights']) expect(await page.at(id).isVisible(), id).toBe(false);
+    const cutoffWavelength = 10 * torus.meanEdge;
+    await expectReport(page, torus.smoothed('tikhonov', { cutoffWavelength }, { operator: 'fem' }));
+    expect(number(await page.text('wavelength-units'))).toBe(Number(cutoffWavelength.toPrecision(3)));
+    await page.choose('method', 'leastSquares');
+    for (const id of ['epsilon', 'weights']) expect(await page.at(id).isVisible(), id).toBe(true);
+    expect(await page.at('wavelength').isVisible()).toBe(false);
   });
 
   test('weights are those of the Laplacian', async () => {

@@ -5,6 +5,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
+  DoubleSide,
   Group,
   InstancedMesh,
   Matrix4,
@@ -12,6 +13,7 @@ import {
   Points,
   PointsMaterial,
   Quaternion,
+  RingGeometry,
   TorusGeometry,
   Vector3,
 } from 'three';
@@ -19,14 +21,14 @@ import type { Found } from './protocol';
 
 const DARK = 0x10151f;
 const LIGHT = 0xffffff;
-/** Rings of more vertices are drawn with fewer corners, and stars not at all. */
+/** More rings are flat, and more stars are left out. */
 const CROWD = 400;
 const MOST_STARS = 6000;
 
 export class RingLayer {
   readonly group = new Group();
-  private readonly dark = new MeshBasicMaterial({ color: DARK });
-  private readonly light = new MeshBasicMaterial({ color: LIGHT });
+  private readonly dark = new MeshBasicMaterial({ color: DARK, side: DoubleSide });
+  private readonly light = new MeshBasicMaterial({ color: LIGHT, side: DoubleSide });
   private readonly squares = new PointsMaterial({
     color: DARK,
     size: 3.5,
@@ -35,7 +37,7 @@ export class RingLayer {
     opacity: 0.55,
   });
   private readonly fine = { inner: torus(0.15, 6, 32), outer: torus(0.25, 6, 32) };
-  private readonly coarse = { inner: torus(0.16, 3, 14), outer: torus(0.29, 3, 14) };
+  private readonly flat = { inner: new RingGeometry(0.84, 1.16, 12), outer: new RingGeometry(0.7, 1.3, 12) };
 
   clear(): void {
     for (const child of [...this.group.children]) {
@@ -49,7 +51,7 @@ export class RingLayer {
   set({ features, all }: Found, positions: Float32Array, normals: Float32Array, radius: number): void {
     this.clear();
     if (features.length === 0) return;
-    const { inner, outer } = features.length > CROWD ? this.coarse : this.fine;
+    const { inner, outer } = features.length > CROWD ? this.flat : this.fine;
     const rings = [new InstancedMesh(outer, this.light, features.length), new InstancedMesh(inner, this.dark, features.length)]; // prettier-ignore
     const axis = new Vector3(0, 0, 1);
     const normal = new Vector3();

@@ -1,9 +1,10 @@
 /** The part of the form that chooses a method: shows only what that method takes. */
 import { clamp, element, input, select, short } from '../dom';
-import { INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
+import { byElements, INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
 import type { Method, Rule, Smoothing } from './settings';
 
 const EPSILON_RANGE = [1e-6, 1e4] as const;
+const WAVELENGTH_RANGE = [0.5, 1e4] as const;
 const CLUSTERS_RANGE = [1, 1e5] as const;
 const LOW_PASS_RANGES = { iterations: [0, 1e4], lambda: [0.01, 1], mu: [-1, 0] } as const;
 const BILATERAL_RANGES = {
@@ -60,6 +61,12 @@ export class SmoothingControls {
     BILATERAL_RANGES,
     INITIAL_SMOOTHING.bilateral,
   );
+  private readonly wavelength: Quantity = {
+    box: input('wavelength'),
+    range: WAVELENGTH_RANGE,
+    fallback: INITIAL_SMOOTHING.wavelength,
+  };
+  private readonly wavelengthUnits = element('#wavelength-units', HTMLElement);
   /** Of the mesh and of the field: what the bilateral filter's multiples are of. */
   private meanEdge = 0;
   private width = 0;
@@ -79,6 +86,7 @@ export class SmoothingControls {
       bounds: this.bounds.checked,
       epsilon: Number(this.epsilonNumber.value),
       metric: this.metric.value as Smoothing['metric'],
+      wavelength: readQuantity(this.wavelength),
       energy: this.energy.value as Smoothing['energy'],
       lowPass: this.filter.value === 'diffusion' ? { ...lowPass, mu: 0 } : lowPass,
       bilateral: readAll(this.bilateral),
@@ -105,6 +113,7 @@ export class SmoothingControls {
     writeAll(this.lowPass, { ...lowPass, mu: lowPass.mu === 0 ? readQuantity(this.lowPass.mu) : lowPass.mu });
     writeAll(this.bilateral, bilateral);
     writeQuantity(this.clusters, choices.clusters);
+    writeQuantity(this.wavelength, choices.wavelength);
     this.show();
   }
 
@@ -128,8 +137,9 @@ export class SmoothingControls {
 
   /** Only what the method takes. */
   private show(): void {
+    const { method, metric } = this.read();
     for (const [key, value] of [
-      ['forMethod', this.method.value],
+      ['forMethod', byElements({ method, metric }) ? 'finiteElements' : method],
       ['forFilter', this.filter.value],
       ['forRule', this.rule.value],
     ] as const) {
@@ -137,8 +147,9 @@ export class SmoothingControls {
       for (const part of document.querySelectorAll<HTMLElement>(`[data-${name}]`))
         part.hidden = !part.dataset[key]!.split(' ').includes(value);
     }
-    const isSimplify = this.method.value === 'simplify';
+    const isSimplify = method === 'simplify';
     element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
+    this.wavelengthUnits.textContent = `${short(readQuantity(this.wavelength) * this.meanEdge)} in units of the mesh. Waves of this length keep half of their amplitude.`;
     const { radius, sigmaDistance, sigmaValue } = readAll(this.bilateral);
     this.units.textContent =
       `Radius ${short(radius * this.meanEdge)} and σ ${short(sigmaDistance * this.meanEdge)} in units of the mesh, ` +
@@ -157,7 +168,12 @@ export class SmoothingControls {
       this.writeEpsilon(Number.isFinite(valueAsNumber) ? valueAsNumber : INITIAL_SMOOTHING.epsilon);
       changed();
     });
-    for (const quantity of [this.clusters, ...Object.values(this.lowPass), ...Object.values(this.bilateral)]) {
+    for (const quantity of [
+      this.clusters,
+      this.wavelength,
+      ...Object.values(this.lowPass),
+      ...Object.values(this.bilateral),
+    ]) {
       quantity.box.addEventListener('change', () => {
         writeQuantity(quantity, readQuantity(quantity));
         this.show();

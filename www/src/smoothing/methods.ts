@@ -5,6 +5,7 @@ import { rangeOf } from '../display';
 import { keptExtrema, thresholdOf } from '../findings';
 import type { AfterReport, Found, Settings } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
+import { byElements } from './settings';
 
 /** A field and what became of it; the time is measured around it. */
 export type Result = Omit<AfterReport, 'milliseconds'> & { values: Float64Array };
@@ -49,7 +50,7 @@ export class Methods {
 
   private smoothed(values: Float64Array, settings: Settings, found: Found | null): Smoothed {
     const smoother = this.smootherFor(settings);
-    const { epsilon, metric, energy, stars, unconstrained } = settings;
+    const { epsilon, metric, wavelength, energy, stars, unconstrained } = settings;
     const constraints = { from: 'vertices', vertices: found?.features ?? [], stars } as const;
     switch (settings.method) {
       case 'interpolate':
@@ -70,17 +71,21 @@ export class Methods {
         });
       }
       default:
-        return smoother.tikhonov(values, { epsilon, metric });
+        return metric === 'finiteElements'
+          ? smoother.tikhonov(values, { cutoffWavelength: wavelength * this.meanEdge })
+          : smoother.tikhonov(values, { epsilon, metric });
     }
   }
 
-  /** Its operators and symbolic factors serve every method, ε and field, as long as the weights are the same. */
-  private smootherFor({ weights, bounds }: Settings): Smoother {
-    const wanted = `${weights} ${bounds}`;
+  /** Its operators and symbolic factors serve every method, ε and field, as long as the operator is the same. */
+  private smootherFor(settings: Settings): Smoother {
+    const { weights, bounds } = settings;
+    const operator = byElements(settings) ? ({ operator: 'fem' } as const) : { weights };
+    const wanted = JSON.stringify([operator, bounds]);
     if (!this.smoother || this.made !== wanted) {
       this.free();
       const onProgress = ({ fraction }: { fraction: number }): void => this.onProgress(fraction);
-      this.smoother = new Smoother(this.mesh, { weights, bounds, onProgress });
+      this.smoother = new Smoother(this.mesh, { ...operator, bounds, onProgress });
       this.made = wanted;
     }
     return this.smoother;

@@ -79,9 +79,14 @@ function counts({ method, settings, smoothing, before, after }: AfterReport): HT
   return section;
 }
 
-function methodOf(method: Method, { energy, isDiffusion }: AfterReport['settings'], equation?: string): string {
-  const kind = method === 'interpolate' ? `, ${energy}` : method === 'lowPass' ? (isDiffusion ? ', diffusion' : ', λ | μ') : ''; // prettier-ignore
-  return `${METHODS[method]}${kind}${equation?.startsWith('(') ? ` ${equation}` : ''}`;
+/** With the number of the paper's equation, where it is one. */
+function methodOf(method: Method, { metric, energy, isDiffusion }: AfterReport['settings'], equation?: string): string {
+  const kinds: Partial<Record<Method, string>> = {
+    tikhonov: metric === 'finiteElements' ? ', finite elements' : '',
+    interpolate: `, ${energy}`,
+    lowPass: isDiffusion ? ', diffusion' : ', λ | μ',
+  };
+  return `${METHODS[method]}${kinds[method] ?? ''}${equation?.startsWith('(') ? ` ${equation}` : ''}`;
 }
 
 function change(report: AfterReport): Group {
@@ -120,7 +125,9 @@ function metricOf({ method, settings }: AfterReport): { name: string; meaning: s
   const unit = 'the field scaled by its range before';
   switch (method) {
     case 'tikhonov': {
-      const by = { mass: 'by mass', lumped: 'by lumped mass', identity: 'Euclidean' }[settings.metric];
+      const by = { mass: 'by mass', lumped: 'by lumped mass', identity: 'Euclidean', finiteElements: 'by area' }[
+        settings.metric
+      ];
       return { name: `‖x − f‖ ${by}`, meaning: `Distance in the metric that was used, of ${unit}` };
     }
     case 'leastSquares':

@@ -27,7 +27,10 @@ export interface Smoothing {
   /** Whether the report is to bound the influence of errors, which takes more solves. */
   bounds: boolean;
   epsilon: number;
-  metric: Metric;
+  /** Of Tikhonov smoothing; with finite elements a wavelength takes the place of ε. */
+  metric: Metric | 'finiteElements';
+  /** A multiple of the mean edge. */
+  wavelength: number;
   energy: 'harmonic' | 'biharmonic';
   lowPass: LowPass;
   bilateral: Bilateral;
@@ -45,6 +48,7 @@ export const INITIAL_SMOOTHING: Smoothing = {
   bounds: false,
   epsilon: 0.1,
   metric: 'mass',
+  wavelength: 10,
   energy: 'harmonic',
   lowPass: { iterations: 20, lambda: 0.5, mu: 0 },
   bilateral: { iterations: 5, radius: 3, sigmaDistance: 1.5, sigmaValue: 0.1 },
@@ -60,6 +64,10 @@ export const TAUBIN_MU = -0.53;
 
 export function hasConstraints({ method }: { method: Method }): boolean {
   return method === 'interpolate' || method === 'leastSquares';
+}
+
+export function byElements({ method, metric }: Pick<Smoothing, 'method' | 'metric'>): boolean {
+  return method === 'tikhonov' && metric === 'finiteElements';
 }
 
 /** Whether the threshold and the decisions about pairs have a part in what the method does. */
@@ -92,10 +100,11 @@ export function constraintsKey(settings: Settings): string {
 
 /** Everything that the field after depends on, and nothing else. */
 export function smoothingKey(settings: Settings): string {
-  const { field, method, weights, bounds, epsilon, metric, energy, unconstrained, persistence, overrides } = settings;
+  const { field, method, weights, bounds, epsilon, metric, wavelength } = settings;
+  const { energy, unconstrained, persistence, overrides } = settings;
   const constraints = hasConstraints(settings) ? constraintsKey(settings) : '';
   const by = {
-    tikhonov: [epsilon, metric],
+    tikhonov: [metric, byElements(settings) ? wavelength : epsilon],
     interpolate: [energy, unconstrained, constraints],
     leastSquares: [epsilon, unconstrained, constraints],
     lowPass: [settings.lowPass],
@@ -106,9 +115,10 @@ export function smoothingKey(settings: Settings): string {
 }
 
 /** What the saved field's name ends in. */
-export function suffixOf({ method, energy, lowPass }: Smoothing): string {
+export function suffixOf(settings: Smoothing): string {
+  const { method, energy, lowPass } = settings;
   return {
-    tikhonov: 'tikhonov',
+    tikhonov: byElements(settings) ? 'finite_elements' : 'tikhonov',
     interpolate: energy,
     leastSquares: 'least_squares',
     lowPass: lowPass.mu === 0 ? 'diffusion' : 'low_pass',
