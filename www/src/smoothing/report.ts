@@ -96,13 +96,18 @@ function change(report: AfterReport): Group {
   return {
     title: 'Change',
     lines: [
-      line('Largest, L∞', `${short(100 * lInfinity)} % of the range`, 'max |x − f|', 'report-linf'),
+      line(
+        'Largest, L∞',
+        `${short(100 * lInfinity)} % of range`,
+        'max |x − f|, as a share of the range before',
+        'report-linf',
+      ),
       norm && line(norm.name, short(smoothing.metricNorm), norm.meaning, 'report-metric'),
       smoothing && line('‖Lx‖', short(smoothing.laplacianNorm), 'Of the result, scaled by the range before', 'report-laplacian'), // prettier-ignore
       line(
-        'Sobolev fᵀLf',
+        'Sobolev',
         `${short(sobolevBefore)} → ${short(sobolevAfter)}${share}`,
-        'How rough the field is, before and after, both scaled by the range before',
+        'Semi-norm fᵀLf, how rough the field is: before and after, both scaled by the range before',
         'report-sobolev',
       ),
       pairsRemoved === null
@@ -143,12 +148,8 @@ function constraints({ smoothing, features }: AfterReport): Group | null {
   return {
     title: 'Constraints',
     lines: [
-      line(
-        'Constrained',
-        `${whole(constraintCount)} (${whole(features)} feature points)`,
-        'Vertices, stars included; feature points are those that were asked for',
-        'report-constrained',
-      ),
+      line('Constrained', whole(constraintCount), 'Vertices, stars included', 'report-constrained'),
+      line('Feature points', whole(features), 'Constrained vertices without their stars', 'report-features'),
       constrainedCriticalPoints === null || preserved === null
         ? null
         : line(
