@@ -3,11 +3,15 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use js_sys::{Array, Float64Array, Function, Int8Array, Object, Reflect, Uint8Array, Uint32Array};
-use morse_smooth::field::{self, CriticalKind, Keep, PathStyle, Threshold};
+use morse_smooth::field::{self, CriticalKind, DeltaOptions, Features, Keep, LinkReading, PathStyle, Threshold};
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators;
-use morse_smooth::smooth::{Operator, Precision, Smoother, SmootherOptions, TikhonovOptions, epsilon_for_wavelength};
+use morse_smooth::smooth::{
+    BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Operator,
+    Precision, Smoothed, Smoother, SmootherOptions, TikhonovOptions, Unconstrained, constrained_vertices,
+    epsilon_for_wavelength,
+};
 use morse_smooth::wasm::{RawSmoother, RawTriMesh, Thrown, read_field, read_mesh, smooth, version, write_mesh};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -121,7 +125,7 @@ fn warnings_and_welding() {
 
 #[wasm_bindgen_test]
 fn critical_points_are_those_of_rust() {
-    use morse_smooth::field::{CriticalKind, DeltaOptions, LinkReading, critical_points};
+    use morse_smooth::field::critical_points;
     let mesh = torus();
     let f = noise(mesh.vertex_count());
     for (text, options) in [
@@ -400,6 +404,103 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
 }
 
 #[wasm_bindgen_test]
+fn constraints_are_those_of_rust() {
+    let mesh = torus();
+    let (given, f) = (raw(&mesh), noise(mesh.vertex_count()));
+    let mut native = Smoother::new(&mesh, SmootherOptions { bounds: true, ..SmootherOptions::default() }).expect("one");
+    let mut smoother = RawSmoother::new(&given, &js("{ bounds: true }")).ok().expect("cotangents");
+    let skip = DeltaOptions { delta: 0.2, link: LinkReading::Skip, ..DeltaOptions::default() };
+    for (text, features, stars) in [
+        ("new Uint32Array([5, 70, 5])", Features::Vertices(&[5, 70, 5]), false),
+        ("{ from: 'vertices', vertices: new Uint32Array([5, 70]) }", Features::Vertices(&[5, 70]), true),
+        ("{ from: 'criticalPoints', delta: 0.2, link: 'skip' }", Features::CriticalPoints(skip), true),
+        ("{ from: 'persistence', threshold: 0.5 }", Features::Persistence(Threshold::Relative(0.5)), true),
+        (
+            "{ from: 'persistence', threshold: 0.5, thresholdIs: 'absolute', stars: false }",
+            Features::Persistence(Threshold::Absolute(0.5)),
+            false,
+        ),
+        ("{ from: 'kMeans', clusters: 7, seed: 3 }", Features::KMeans { clusters: 7, seed: 3 }, true),
+    ] {
+        let constraints = Constraints { features, stars, unconstrained: Unconstrained::Error };
+        let wanted = constrained_vertices(&mesh, &f, 1, &constraints).expect("vertices");
+        let found = given.constrained_vertices(&array(&f), &js(text), &NONE).ok().expect("vertices");
+        assert_eq!(found.to_vec(), wanted, "{text}");
+
+        let options = InterpolateOptions { constraints, energy: Energy::Biharmonic, channels: 1 };
+        let wanted = native.interpolate(&f, &options).expect("a solution");
+        let given_options = js(&format!("{{ constraints: {text}, energy: 'biharmonic' }}"));
+        let found: JsValue = smoother.interpolate(&array(&f), &given_options).ok().expect("a solution").into();
+        check_constrained(&found, &wanted, text);
+
+        let options = LeastSquaresOptions { constraints, epsilon: 0.5, weights: None, channels: 1 };
+        let wanted = native.least_squares(&f, &options).expect("a solution");
+        let given_options = js(&format!("{{ constraints: {text}, epsilon: 0.5 }}"));
+        let found: JsValue = smoother.least_squares(&array(&f), &given_options, None).ok().expect("a solution").into();
+        check_constrained(&found, &wanted, text);
+        Reflect::set(&given_options, &"bounds".into(), &JsValue::TRUE).expect("an object");
+        let found: JsValue = smooth(&given, &array(&f), &given_options).ok().expect("a solution").into();
+        check_constrained(&found, &wanted, text);
+    }
+    let weights = array(&[1.0, 2.0]);
+    let options = js("{ constraints: new Uint32Array([5, 70]), epsilon: 0.5 }");
+    assert!(smoother.least_squares(&array(&f), &options, Some(weights)).is_ok());
+    let (code, message, detail) = thrown(smoother.least_squares(&array(&f), &options, Some(array(&[1.0, 0.0]))));
+    assert_eq!((code.as_str(), number(&detail, "vertex")), ("InvalidWeight", 70.0), "{message}");
+    let nested = js("{ constraints: { from: 'criticalPoints', delta: -1 } }");
+    let (code, message, detail) = thrown(smoother.interpolate(&array(&f), &nested));
+    assert_eq!((code.as_str(), get(&detail, "option")), ("InvalidOption", "constraints.delta".into()), "{message}");
+}
+
+/// What JavaScript got beside what Rust gets.
+fn check_constrained(found: &JsValue, wanted: &Smoothed, context: &str) {
+    assert_eq!(floats(found, "values"), wanted.values, "{context}");
+    let (report, wanted) = (get(found, "report"), &wanted.reports[0]);
+    assert_eq!(get(&report, "method"), JsValue::from_str(wanted.method));
+    for (name, value) in [
+        ("constraintCount", Some(wanted.constraint_count as f64)),
+        ("constrainedCriticalPoints", wanted.constrained_critical_points.map(|count| count as f64)),
+        ("preserved", wanted.preserved.map(|count| count as f64)),
+        ("freeExtrema", wanted.free_extrema.map(|count| count as f64)),
+        ("perturbationFactor", wanted.perturbation_factor),
+        ("metricNorm", Some(wanted.metric_norm)),
+    ] {
+        assert_eq!(get(&report, name).as_f64(), value, "{context}: {name}");
+        assert!(value.is_some(), "{context}: {name}");
+    }
+    assert!(get(&report, "maximumPrinciple").is_null());
+}
+
+#[wasm_bindgen_test]
+fn filters_are_those_of_rust() {
+    let mesh = torus();
+    let f = noise(mesh.vertex_count());
+    let mut native = Smoother::new(&mesh, SmootherOptions::default()).expect("cotangents");
+    let mut smoother = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
+    let taubin = LowPassOptions { iterations: 7, lambda: 0.4, mu: -0.45, channels: 1 };
+    let wanted = native.low_pass(&f, &taubin).expect("steps");
+    let given = js("{ iterations: 7, lambda: 0.4, mu: -0.45 }");
+    let found: JsValue = smoother.low_pass(&array(&f), &given).ok().expect("steps").into();
+    assert_eq!(floats(&found, "values"), wanted.values);
+    let plain = LowPassOptions { iterations: 3, ..LowPassOptions::default() };
+    let wanted = native.low_pass(&f, &plain).expect("steps");
+    let found: JsValue = smoother.low_pass(&array(&f), &js("{ iterations: 3 }")).ok().expect("steps").into();
+    assert_eq!(floats(&found, "values"), wanted.values);
+    let options = BilateralOptions { iterations: 2, radius: 0.6, sigma_distance: 0.3, sigma_value: 0.7, channels: 1 };
+    let wanted = native.bilateral(&f, &options).expect("steps");
+    let given = js("{ iterations: 2, radius: 0.6, sigmaDistance: 0.3, sigmaValue: 0.7 }");
+    let found: JsValue = smoother.bilateral(&array(&f), &given).ok().expect("steps").into();
+    // To the last bit: the exponential function is not the platform's.
+    assert_eq!(floats(&found, "values"), wanted.values);
+    assert_eq!(number(&get(&get(&found, "report"), "solver"), "iterations"), 2.0);
+    for text in ["undefined", "{}", "{ iterations: -1 }", "{ iterations: 1, lambda: 2, radius: 0 }"] {
+        let codes =
+            [thrown(smoother.low_pass(&array(&f), &js(text))).0, thrown(smoother.bilateral(&array(&f), &js(text))).0];
+        assert!(codes.iter().all(|code| ["InvalidOption", "UnknownOption"].contains(&code.as_str())), "{text}");
+    }
+}
+
+#[wasm_bindgen_test]
 fn progress_is_told_and_cannot_harm() {
     let mesh = raw(&torus());
     let f = array(&noise(108));
@@ -455,7 +556,6 @@ fn wrong_options_are_refused_by_name() {
         ("{ operator: 'fem', weights: 'uniform' }", "InapplicableOption"),
         ("{ operator: 'finite' }", "InvalidOption"),
         ("{ precision: 'half' }", "InvalidOption"),
-        ("{ bounds: true }", "UnsupportedOption"),
         ("{ solver: 'cg', colour: 1 }", "UnknownOption"),
         ("{ bounds: 'yes' }", "InvalidOption"),
     ] {
@@ -464,8 +564,14 @@ fn wrong_options_are_refused_by_name() {
     for (text, code) in [
         ("{ epsilon: 'auto' }", "UnsupportedOption"),
         ("{ epsilon: 'much' }", "InvalidOption"),
-        ("{ epsilon: 1, method: 'interpolate' }", "UnsupportedOption"),
-        ("{ epsilon: 1, constraints: {} }", "UnsupportedOption"),
+        ("{ epsilon: 1, method: 'interpolate' }", "InapplicableOption"),
+        ("{ method: 'interpolate' }", "InvalidOption"),
+        ("{ epsilon: 1, constraints: {} }", "InvalidOption"),
+        ("{ epsilon: 1, constraints: [0] }", "InvalidOption"),
+        ("{ epsilon: 1, constraints: { from: 'kMeans', clusters: 0 } }", "InvalidOption"),
+        ("{ epsilon: 1, constraints: { from: 'persistence', delta: 0 } }", "UnknownOption"),
+        ("{ epsilon: 1, constraints: new Uint32Array([108]) }", "IndexOutOfBounds"),
+        ("{ epsilon: 1, constraints: new Uint32Array(0) }", "Unconstrained"),
         ("{ epsilon: 1, __proto__: null, surprise: 1 }", "UnknownOption"),
     ] {
         assert_eq!(thrown(smooth(&mesh, &f, &js(text))).0, code, "{text}");

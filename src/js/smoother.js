@@ -4,6 +4,9 @@ import { core } from './instance.js';
 import { handleOf } from './mesh.js';
 import { relayProgress } from './progress.js';
 
+/** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
+const CONSTRAINED = ['interpolate', 'leastSquares'];
+
 export class Smoother {
   #handle;
   /** Makes a call during which `onProgress` may run. */
@@ -48,7 +51,8 @@ export class Smoother {
 
   #smooth(method, values, options, weights) {
     const numbers = toNumbers(values, 'values');
-    const settings = withConstraints(toOptions(options), this.#vertexCount);
+    const given = toOptions(options);
+    const settings = CONSTRAINED.includes(method) ? withConstraints(given, this.#vertexCount) : given;
     return this.#run(() => this.#handle.useAlone((raw) => raw[method](numbers, settings, weights)));
   }
 }
@@ -56,8 +60,7 @@ export class Smoother {
 /** Options whose constraints are as the wasm module takes them. */
 function withConstraints(settings, vertexCount) {
   const constraints = settings?.constraints;
-  if (constraints !== undefined && constraints !== null)
-    settings.constraints = toConstraints(constraints, vertexCount);
+  if (constraints !== undefined && constraints !== null) settings.constraints = toConstraints(constraints, vertexCount);
   return settings;
 }
 

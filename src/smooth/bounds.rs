@@ -5,11 +5,14 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::system::Mass;
+use super::routes::Mass;
 
-/// Of (LᵀWL + εB) x = εBf with a positive definite B, given a lower bound of the matrix's smallest eigenvalue: ε‖B‖/λ, the
-/// bound of the paper, or √(‖B‖‖B⁻¹‖), since ‖x − x_e‖_B ≤ ‖e‖_B, whichever is less. For B = I it is 1 and attained by constants.
-pub(super) fn tikhonov(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue: Option<f64>) -> Option<f64> {
+/// Of (LᵀWL + εB) x = εBf, given a lower bound λ of the smallest eigenvalue of the matrix A: √(ε‖B‖/λ), or √(‖B‖‖B⁻¹‖), since
+/// ‖x − x_e‖_B ≤ ‖e‖_B, whichever is less. For B = I it is 1 and attained by constants.
+///
+/// The paper has ε‖B‖/λ. As A is at least εB, A^(−1/2) (εB)^(1/2) has a norm of at most 1, so that the root of it bounds
+/// A⁻¹ εB = A^(−1/2) · A^(−1/2) (εB)^(1/2) · (εB)^(1/2), too.
+pub(super) fn regularized(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue: Option<f64>) -> Option<f64> {
     let (masses, share) = match mass {
         Mass::Identity => return Some(1.0),
         Mass::Diagonal(masses) => (masses.clone(), 1.0),
@@ -19,18 +22,9 @@ pub(super) fn tikhonov(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue: O
     };
     let largest = masses.iter().fold(0.0_f64, |largest, &m| largest.max(m));
     let smallest = share * masses.iter().fold(f64::INFINITY, |smallest, &m| smallest.min(m));
-    let by_condition = (largest / smallest).sqrt();
+    let by_condition = largest / smallest;
     let by_eigenvalue = eigenvalue.map_or(f64::INFINITY, |eigenvalue| epsilon * largest / eigenvalue);
-    finite(by_condition.min(by_eigenvalue))
-}
-
-/// Of (LᵀWL + εΔ) x = εΔf: ε‖Δ‖/λ.
-pub(super) fn least_squares(mass: &Mass, epsilon: f64, eigenvalue: Option<f64>) -> Option<f64> {
-    let largest = match mass {
-        Mass::Diagonal(weights) => weights.iter().fold(0.0_f64, |largest, &w| largest.max(w)),
-        Mass::Identity | Mass::Matrix(_) => 1.0,
-    };
-    eigenvalue.and_then(|eigenvalue| finite(epsilon * largest / eigenvalue))
+    finite(by_condition.min(by_eigenvalue).sqrt())
 }
 
 /// Of min ‖A_F g + A_I f_I‖ with the values f_I fixed: √(1 + (‖A_I‖/σ)²), where σ is the smallest singular value of A_F.

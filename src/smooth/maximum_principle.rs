@@ -34,54 +34,44 @@ pub(super) fn certify(
     let mut is_free = vec![false; x.len()];
     free.iter().for_each(|&v| is_free[v as usize] = true);
     let mut smallest = f64::INFINITY;
-    let mut around = Around::new(x);
-    for (column, entries) in laplacian.col_iter().enumerate() {
-        for (&row, &value) in entries.row_indices().iter().zip(entries.values()) {
+    let mut sides = vec![0_u8; x.len()];
+    let (offsets, rows, values) = laplacian.csc_data();
+    for column in 0..x.len() {
+        for k in offsets[column]..offsets[column + 1] {
+            let (row, value) = (rows[k], values[k]);
             if row != column && value != 0.0 && is_free[row] {
                 smallest = if -value < smallest { -value } else { smallest };
-                around.see(row, column);
+                sides[row] |= side(x[column] - x[row]);
             }
         }
     }
-    let extrema = around.extrema(free);
-    let mut around = Around::new(x);
+    let extrema = count_extrema(&sides, free);
+    sides.fill(0);
     for &[a, b] in connectivity.edges() {
-        around.see(a as usize, b as usize);
-        around.see(b as usize, a as usize);
+        let difference = x[b as usize] - x[a as usize];
+        sides[a as usize] |= side(difference);
+        sides[b as usize] |= side(-difference);
     }
     MaximumPrinciple {
         smallest_weight: if smallest.is_finite() { smallest } else { 0.0 },
         extrema,
-        mesh_extrema: around.extrema(free),
+        mesh_extrema: count_extrema(&sides, free),
     }
-}
-
-/// Which sides of each vertex's value its neighbours lie on.
-struct Around<'a> {
-    x: &'a [f64],
-    sides: Vec<u8>,
 }
 
 const BELOW: u8 = 1;
 const NEAR: u8 = 2;
 const ABOVE: u8 = 4;
 
-impl<'a> Around<'a> {
-    fn new(x: &'a [f64]) -> Self {
-        Self { x, sides: vec![0; x.len()] }
-    }
+/// Where a neighbour lies whose value differs by so much.
+#[inline]
+fn side(difference: f64) -> u8 {
+    // Without branches, which could not be foretold where a field is rough.
+    let (below, above) = (u8::from(difference < -ROUNDING), u8::from(difference > ROUNDING));
+    below * BELOW | above * ABOVE | (1 - below - above) * NEAR
+}
 
-    fn see(&mut self, vertex: usize, neighbour: usize) {
-        let difference = self.x[neighbour] - self.x[vertex];
-        self.sides[vertex] |= match () {
-            () if difference > ROUNDING => ABOVE,
-            () if difference < -ROUNDING => BELOW,
-            () => NEAR,
-        };
-    }
-
-    /// Vertices with all neighbours on one side.
-    fn extrema(&self, of: &[u32]) -> usize {
-        of.iter().filter(|&&v| matches!(self.sides[v as usize], BELOW | ABOVE)).count()
-    }
+/// Vertices with all neighbours on one side.
+fn count_extrema(sides: &[u8], of: &[u32]) -> usize {
+    of.iter().filter(|&&v| matches!(sides[v as usize], BELOW | ABOVE)).count()
 }

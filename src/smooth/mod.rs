@@ -19,10 +19,10 @@ pub use filters::{BilateralOptions, LowPassOptions};
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use maximum_principle::MaximumPrinciple;
-pub use options::{Operator, Phase, Precision, Progress, SmootherOptions, SolverChoice};
+pub use options::{Metric, Operator, Phase, Precision, Progress, SmootherOptions, SolverChoice};
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
 pub use system::Energy;
-pub use tikhonov::{Metric, TikhonovOptions, epsilon_for_wavelength};
+pub use tikhonov::{TikhonovOptions, epsilon_for_wavelength};
 
 use nalgebra_sparse::CscMatrix;
 
@@ -30,7 +30,8 @@ use crate::error::{OptionError, Result};
 use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
 use constraints::LeftOut;
-use system::{FullSystem, Manner, Reach, ReducedSystem};
+use routes::Manner;
+use system::{FullSystem, Reach, ReducedSystem};
 
 /// Smooths fields on one mesh. Holds the operators, the ordering and the symbolic and last numeric factor, so that a new
 /// field costs a solve and a new ε one numeric factorisation.

@@ -54,6 +54,18 @@ pub struct SmootherOptions {
     pub bounds: bool,
 }
 
+/// The matrix B that measures ‖x − f‖.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Metric {
+    /// B = I: eq. (3).
+    Identity,
+    /// B is the Galerkin mass matrix: eq. (5). The default.
+    #[default]
+    Mass,
+    /// B is the lumped mass matrix: eq. (5) with a diagonal.
+    Lumped,
+}
+
 /// A step of the work, for progress displays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {

@@ -4,7 +4,8 @@ use super::bounds;
 use super::channels::Channels;
 use super::constraints::{ConstraintSet, LeftOut};
 use super::report::{Facts, Smoothed, SolverReport, finish};
-use super::system::{Attraction, FullSystem, Mass, Solved, difference};
+use super::routes::{Mass, difference};
+use super::system::{Attraction, FullSystem, Solved};
 use super::{Phase, Progress, Smoother};
 use crate::error::Result;
 
@@ -60,7 +61,7 @@ fn solve(
         let solved = system.solve(&smoother.mesh, &group, *epsilon, attraction, manner, progress)?;
         let mass = system.mass().unwrap_or(&Mass::Identity);
         if manner.bounds {
-            factor = perturbation_factor(attraction, mass, &solved, *epsilon);
+            factor = perturbation_factor(mass, &solved, *epsilon);
         }
         progress(Phase::Report, 0.95);
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(&solved.solutions)) {
@@ -92,11 +93,11 @@ fn solve(
     Ok(Smoothed { values: interleaved, reports })
 }
 
-fn perturbation_factor(attraction: &Attraction, mass: &Mass, solved: &Solved, epsilon: f64) -> Option<f64> {
+fn perturbation_factor(mass: &Mass, solved: &Solved, epsilon: f64) -> Option<f64> {
+    if solved.unknowns == 0 {
+        return Some(1.0);
+    }
     // The system was divided by this.
     let epsilon = epsilon / epsilon.max(1.0);
-    match attraction {
-        Attraction::Metric(..) => bounds::tikhonov(mass, solved.unknowns, epsilon, solved.smallest_eigenvalue),
-        Attraction::Constraints { .. } => bounds::least_squares(mass, epsilon, solved.smallest_eigenvalue),
-    }
+    bounds::regularized(mass, solved.unknowns, epsilon, solved.smallest_eigenvalue)
 }

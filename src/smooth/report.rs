@@ -6,7 +6,8 @@ use super::Smoother;
 use super::channels::Channel;
 use super::constraints::ConstraintSet;
 use super::maximum_principle::MaximumPrinciple;
-use super::system::{Solution, Solved, difference};
+use super::routes::difference;
+use super::system::{Solution, Solved};
 use crate::error::{FieldError, Result};
 use crate::field::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, VertexOrder, critical_points,

@@ -6,21 +6,9 @@ use super::channels::Channels;
 use super::regularized::{self, Regularization};
 use super::report::Smoothed;
 use super::system::Attraction;
-use super::{Operator, Progress, Smoother};
+use super::{Metric, Operator, Progress, Smoother};
 use crate::error::{OptionError, Result};
 use crate::operators::MassScale;
-
-/// The matrix B that measures ‖x − f‖.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Metric {
-    /// B = I: eq. (3).
-    Identity,
-    /// B is the Galerkin mass matrix: eq. (5). The default.
-    #[default]
-    Mass,
-    /// B is the lumped mass matrix: eq. (5) with a diagonal.
-    Lumped,
-}
 
 /// Options of [`Smoother::tikhonov`].
 #[derive(Debug, Clone, Copy, PartialEq)]

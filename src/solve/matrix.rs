@@ -19,10 +19,11 @@ const BYTES_PER_GRAM_ENTRY: u64 = 2 * 8 + 6 * size_of::<usize>() as u64;
 #[inline(never)]
 pub fn product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     assert_eq!(x.len(), matrix.ncols(), "one entry per column");
+    let (offsets, rows, values) = matrix.csc_data();
     let mut y = vec![0.0; matrix.nrows()];
-    for (column, &scale) in matrix.col_iter().zip(x) {
-        for (&row, &value) in column.row_indices().iter().zip(column.values()) {
-            y[row] += value * scale;
+    for (j, &scale) in x.iter().enumerate() {
+        for k in offsets[j]..offsets[j + 1] {
+            y[rows[k]] += values[k] * scale;
         }
     }
     y
@@ -36,10 +37,16 @@ pub fn product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
 #[inline(never)]
 pub fn transposed_product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     assert_eq!(x.len(), matrix.nrows(), "one entry per row");
-    matrix
-        .col_iter()
-        .map(|column| column.row_indices().iter().zip(column.values()).map(|(&row, &value)| value * x[row]).sum())
-        .collect()
+    let (offsets, rows, values) = matrix.csc_data();
+    let mut y = Vec::with_capacity(matrix.ncols());
+    for j in 0..matrix.ncols() {
+        let mut sum = 0.0;
+        for k in offsets[j]..offsets[j + 1] {
+            sum += values[k] * x[rows[k]];
+        }
+        y.push(sum);
+    }
+    y
 }
 
 /// xᵀ A x.

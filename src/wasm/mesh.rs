@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use super::convert::{diagnostics, floats, ids, object, sparse};
 use super::error::Thrown;
-use super::options::{ConstraintInput, read};
+use super::options::{ConstraintInput, from_rule, read};
 use crate::mesh::{self, TriMesh};
 use crate::operators;
 use crate::smooth::{self, Unconstrained};
@@ -88,7 +88,8 @@ impl RawTriMesh {
         let channels = read(options, &[&["channels"]])?.channels();
         let input = ConstraintInput::read(constraints)?;
         let constraints = input.constraints(Unconstrained::Keep);
-        let vertices = smooth::constrained_vertices(&self.mesh, &floats(values)?, channels, &constraints)?;
+        let values = floats(values)?;
+        let vertices = smooth::constrained_vertices(&self.mesh, &values, channels, &constraints).map_err(from_rule)?;
         Ok(Uint32Array::from(vertices.as_slice()))
     }
 

@@ -7,7 +7,8 @@ use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{
-    BILATERAL, ConstraintInput, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read, read_smooth,
+    BILATERAL, ConstraintInput, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, from_rule, read,
+    read_smooth,
 };
 use crate::smooth::{Phase, Smoothed, Smoother};
 
@@ -39,10 +40,12 @@ impl RawSmoother {
         let constraints = ConstraintInput::read(&input.constraints)?;
         let options = input.interpolate(&constraints)?;
         let mut tell = teller(self.on_progress.as_ref());
-        Ok(result(&self.smoother.interpolate_with_progress(&floats(values)?, &options, &mut tell)?))
+        let smoothed = self.smoother.interpolate_with_progress(&floats(values)?, &options, &mut tell);
+        Ok(result(&smoothed.map_err(from_rule)?))
     }
 
     #[wasm_bindgen(js_name = leastSquares)]
+    #[allow(clippy::needless_pass_by_value, reason = "wasm-bindgen hands what may be missing over by value")]
     pub fn least_squares(
         &mut self,
         values: &Float64Array,
@@ -54,7 +57,8 @@ impl RawSmoother {
         let weights = weights.as_ref().map(floats).transpose()?;
         let options = input.least_squares(&constraints, weights.as_deref())?;
         let mut tell = teller(self.on_progress.as_ref());
-        Ok(result(&self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell)?))
+        let smoothed = self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell);
+        Ok(result(&smoothed.map_err(from_rule)?))
     }
 
     #[wasm_bindgen(js_name = lowPass)]
@@ -85,13 +89,14 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
         return Ok(result(&smoother.tikhonov_with_progress(&values, &tikhonov, &mut tell)?));
     }
     let constraints = ConstraintInput::read(&input.constraints)?;
-    Ok(result(&if method == Method::Interpolate {
+    let smoothed = if method == Method::Interpolate {
         let interpolate = input.interpolate(&constraints)?;
-        Smoother::new(mesh.mesh(), options)?.interpolate_with_progress(&values, &interpolate, &mut tell)?
+        Smoother::new(mesh.mesh(), options)?.interpolate_with_progress(&values, &interpolate, &mut tell)
     } else {
         let least_squares = input.least_squares(&constraints, None)?;
-        Smoother::new(mesh.mesh(), options)?.least_squares_with_progress(&values, &least_squares, &mut tell)?
-    }))
+        Smoother::new(mesh.mesh(), options)?.least_squares_with_progress(&values, &least_squares, &mut tell)
+    };
+    Ok(result(&smoothed.map_err(from_rule)?))
 }
 
 /// Calls `{ phase, fraction }` back. What a callback throws is not ours: `src/js` hands callbacks that keep it.

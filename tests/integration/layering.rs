@@ -67,6 +67,19 @@ const FIELD: [&[&str]; 9] = [
     &["mod"],
 ];
 
+/// The files and folders of `smooth`, likewise.
+const SMOOTH: [&[&str]; 9] = [
+    &["options", "channels"],
+    &["routes"],
+    &["system"],
+    &["constraints", "maximum_principle", "bounds"],
+    &["report"],
+    &["regularized"],
+    &["tikhonov"],
+    &["least_squares", "interpolate", "filters"],
+    &["mod"],
+];
+
 /// The bibliography.
 const REFERENCES: &str = include_str!("../../src/references.md");
 
@@ -183,12 +196,14 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     if let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_suffix(".rs")) {
         found.extend(disorder(name, &code).into_iter().map(|what| format!("{path} {what}")));
     }
-    if let Some(name) = path.strip_prefix("field/") {
-        let (name, paths): (_, &[&str]) = match name.split_once('/') {
-            Some((folder, _)) => (folder, &["field::", "super::super::"]),
-            None => (name.trim_end_matches(".rs"), &["super::"]),
+    for (module, groups) in [("field", &FIELD[..]), ("smooth", &SMOOTH[..])] {
+        let Some(name) = path.strip_prefix(module).and_then(|name| name.strip_prefix('/')) else { continue };
+        let from_crate = format!("{module}::");
+        let (name, paths) = match name.split_once('/') {
+            Some((folder, _)) => (folder, [from_crate.as_str(), "super::super::"]),
+            None => (name.trim_end_matches(".rs"), [from_crate.as_str(), "super::"]),
         };
-        found.extend(out_of_order(name, &code, &FIELD, paths).into_iter().map(|what| format!("{path} {what}")));
+        found.extend(out_of_order(name, &code, groups, &paths).into_iter().map(|what| format!("{path} {what}")));
     }
     match MAY_IMPORT.iter().find(|(name, _)| *name == module) {
         None => found.push(format!("{path}: the module `{module}` has no place in the layers yet")),
@@ -281,6 +296,8 @@ fn the_check_catches_what_it_is_for() {
         ("field/order.rs", "use super::critical::exact;"),
         ("field/persistence/loops.rs", "use crate::field::simplify::Keep;"),
         ("field/reeb.rs", "fn f() {}"),
+        ("smooth/routes/real.rs", "use crate::smooth::system::Solved;"),
+        ("smooth/report.rs", "use super::tikhonov::TikhonovOptions;"),
         ("smooth/mod.rs", "let t = std::time::Instant::now();"),
         ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),
         ("error.rs", "use crate::io::MeshFormat;"),

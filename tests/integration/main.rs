@@ -3,10 +3,15 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod bands;
+mod bounds;
 mod cholesky;
+mod constrained;
+mod constrained_invariants;
+mod constraint_sets;
 mod critical;
 mod data;
 mod definite;
+mod dense_reference;
 mod exact;
 mod extremes;
 mod features;

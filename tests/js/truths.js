@@ -1,4 +1,6 @@
-// What the topology of a field is, by short and slow ways that have nothing in common with the package's.
+// What the topology of a field is, and what dense systems come to, by short and slow ways that have nothing in common with the
+// package's.
+import { apply, dot } from './meshes.js';
 
 /** Whether a comes before b by (value, vertex number). */
 export const isBelow = (values, a, b) => values[a] < values[b] || (values[a] === values[b] && a < b);
@@ -126,4 +128,78 @@ export function steepest({ positions }, around, values, v, down) {
     const more = slope(j) - slope(best);
     return more > 0 || (more === 0 && isBelow(values, j, best) === down) ? j : best;
   }, v);
+}
+
+/** The critical vertices at δ = 0 of a closed surface, ascending. */
+export function criticalVertices(shape, values) {
+  const [lower, upper] = [true, false].map((down) => linkParts(shape, values, down));
+  return [...lower.keys()].filter((v) => lower[v] !== 1 || upper[v] !== 1);
+}
+
+export const transpose = (matrix) => matrix[0].map((_, j) => matrix.map((row) => row[j]));
+
+export function multiply(a, b) {
+  const columns = transpose(b);
+  return a.map((row) => columns.map((column) => dot(row, column)));
+}
+
+/** The solution of a dense system, by Gaussian elimination with pivots. */
+export function solve(matrix, right) {
+  const rows = matrix.map((row, i) => [...row, right[i]]);
+  const n = rows.length;
+  for (let k = 0; k < n; k++) {
+    let pivot = k;
+    for (let i = k + 1; i < n; i++) if (Math.abs(rows[i][k]) > Math.abs(rows[pivot][k])) pivot = i;
+    [rows[k], rows[pivot]] = [rows[pivot], rows[k]];
+    for (let i = k + 1; i < n; i++) {
+      const factor = rows[i][k] / rows[k][k];
+      for (let j = k; j <= n; j++) rows[i][j] -= factor * rows[k][j];
+    }
+  }
+  const x = new Array(n);
+  for (let k = n - 1; k >= 0; k--) {
+    let rest = rows[k][n];
+    for (let j = k + 1; j < n; j++) rest -= rows[k][j] * x[j];
+    x[k] = rest / rows[k][k];
+  }
+  return x;
+}
+
+/** The vector x with x = values on `fixed`, and (matrix x)_i = 0 elsewhere. */
+export function interpolated(matrix, values, fixed) {
+  const free = matrix.map((_, i) => i).filter((i) => !fixed.includes(i));
+  const right = free.map((i) => -fixed.reduce((sum, j) => sum + matrix[i][j] * values[j], 0));
+  const inner = solve(
+    free.map((i) => free.map((j) => matrix[i][j])),
+    right,
+  );
+  const x = [...values];
+  free.forEach((i, k) => (x[i] = inner[k]));
+  return x;
+}
+
+const norm = (x) => Math.sqrt(dot(x, x));
+
+/** The greatest eigenvalue of a positive semi-definite map of n numbers, from below, by power iteration. */
+function greatest(n, map) {
+  let x = Array.from({ length: n }, (_, i) => Math.sin(i + 1));
+  let eigenvalue = 0;
+  for (let time = 0; time < 300; time++) {
+    const length = norm(x);
+    x = map(x.map((entry) => entry / length));
+    eigenvalue = norm(x);
+  }
+  return eigenvalue;
+}
+
+/** ‖matrix‖₂ */
+export function spectralNorm(matrix) {
+  const transposed = transpose(matrix);
+  return Math.sqrt(greatest(matrix[0].length, (x) => apply(transposed, apply(matrix, x))));
+}
+
+/** The least singular value of a matrix that has an inverse. */
+export function leastSingularValue(matrix) {
+  const transposed = transpose(matrix);
+  return 1 / Math.sqrt(greatest(matrix.length, (x) => solve(matrix, solve(transposed, x))));
 }

@@ -13,6 +13,7 @@ const PLATEAUS = ['jacksboro_dem.ply', 'disk_flow_surface.vtk'];
 const METRICS = ['identity', 'mass'];
 const RELATIVE_FACTS = 1e-9;
 const RELATIVE_SMOOTHED = 1e-7;
+const ABSOLUTE_SMOOTHED = 1e-15;
 const RELATIVE_SINGLE = 1e-9;
 
 if (!existsSync(reference)) {
@@ -22,11 +23,25 @@ if (!existsSync(reference)) {
   it.skip(`reference data: not run, there is no ${reference}`, () => {});
 }
 
-function near(value, expected, relative, what) {
+/** With `absolute` for values near 0 of fields scaled to [0, 1]: these are rounded, too. */
+function near(value, expected, relative, what, absolute = 0) {
   expect(Math.abs(value - expected), `${what}: ${value} instead of ${expected}`).toBeLessThanOrEqual(
-    relative * Math.abs(expected),
+    relative * Math.abs(expected) + absolute,
   );
 }
+
+/** Every smoothing of the reference: its name there, the method, its options, and the name of its set of constraints. */
+const ALL = { from: 'criticalPoints' };
+const SOME = { from: 'criticalPoints', delta: 0.02, link: 'skip' };
+const SMOOTHINGS = [
+  ['tikhonov identity epsilon=0.05', 'tikhonov', { epsilon: 0.05, metric: 'identity' }],
+  ['tikhonov mass epsilon=0.05', 'tikhonov', { epsilon: 0.05, metric: 'mass' }],
+  ['leastSquares epsilon=0.05 all critical points + stars', 'leastSquares', { epsilon: 0.05, constraints: ALL }],
+  ['leastSquares epsilon=0.05 delta=0.02 skip + stars', 'leastSquares', { epsilon: 0.05, constraints: SOME }],
+  ['interpolate harmonic delta=0.02 skip + stars', 'interpolate', { energy: 'harmonic', constraints: SOME }],
+  ['interpolate biharmonic delta=0.02 skip + stars', 'interpolate', { energy: 'biharmonic', constraints: SOME }],
+];
+const sizesOf = (facts, rule) => facts.constraints[rule === ALL ? 'all critical points' : 'delta=0.02 skip'];
 
 const counted = ({ minima, maxima, saddles }) => [minima, maxima, saddles];
 
@@ -127,25 +142,43 @@ describe.runIf(existsSync(reference))('reference data', () => {
         near(laplacianNorm, facts.laplacianNorm, RELATIVE_FACTS, 'laplacianNorm');
       });
 
-      it.each(METRICS)('is smoothed with metric %s', (metric) => {
-        const wanted = facts.smoothed[`tikhonov ${metric} epsilon=0.05`];
-        const { values, report } = smoother.tikhonov(normalised(valuesOf(field)), { epsilon: 0.05, metric });
+      it.each(SMOOTHINGS)('is smoothed: %s', (title, method, options) => {
+        const wanted = facts.smoothed[title];
+        const f = valuesOf(field);
+        const smoothed = () => smoother[method](f, options);
+        const rule = options.constraints;
+        if (wanted === undefined) {
+          // The reference leaves out what has no constraint at all.
+          expect(sizesOf(facts, rule)).toEqual([0, 0]);
+          expect(smoothed).toThrow(expect.objectContaining({ code: 'Unconstrained' }));
+          return;
+        }
+        const { values, report } = smoothed();
         near(report.lInfinity, wanted.lInfinity, RELATIVE_SMOOTHED, 'lInfinity');
         near(report.l2, wanted.l2, RELATIVE_SMOOTHED, 'l2');
         near(report.sobolevAfter, wanted.sobolev, RELATIVE_SMOOTHED, 'sobolev');
         near(report.laplacianNorm, wanted.laplacianNorm, RELATIVE_SMOOTHED, 'laplacianNorm');
-        facts.sampleVertices.forEach((vertex, k) =>
-          near(values[vertex], wanted.samples[k], RELATIVE_SMOOTHED, `vertex ${vertex}`),
-        );
+        const [low, high] = facts.range;
+        facts.sampleVertices.forEach((vertex, k) => {
+          const scaled = (values[vertex] - low) / (high - low);
+          near(scaled, wanted.samples[k], RELATIVE_SMOOTHED, `vertex ${vertex}`, ABSOLUTE_SMOOTHED);
+        });
         const after = counted(report.after);
         if (!PLATEAUS.includes(name)) {
           expect(after).toEqual(wanted.counts);
         } else if (String(after) !== String(wanted.counts)) {
           console.log(
-            `${name}, ${field}, ${metric}: counts ${after} where the reference has ${wanted.counts} (plateaus)`,
+            `${name}, ${field}, ${title}: counts ${after} where the reference has ${wanted.counts} (plateaus)`,
           );
           for (const k of [0, 1, 2]) expect(Math.abs(after[k] - wanted.counts[k])).toBeLessThanOrEqual(5);
         }
+        if (rule === undefined) return;
+        const [critical, withStars] = sizesOf(facts, rule);
+        expect(report).toMatchObject({ constraintCount: withStars, constrainedCriticalPoints: critical });
+        expect(mesh.constrainedVertices(f, rule)).toHaveLength(withStars);
+        expect(mesh.constrainedVertices(f, { ...rule, stars: false })).toHaveLength(critical);
+        // Between constraints with their stars, interpolation keeps every critical point.
+        if (method === 'interpolate') expect(report.preserved).toBe(critical);
       });
     });
   });

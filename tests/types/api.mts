@@ -206,6 +206,7 @@ const { report, reports } = result;
 same<typeof reports, api.SmoothReport[]>(true);
 const { method, equation, epsilon, constraintCount, before, after, lInfinity, l2, metricNorm } = report;
 const { sobolevBefore, sobolevAfter, preserved, freeExtrema, perturbationFactor, solver } = report;
+same<typeof method, 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral'>(true);
 const { route, precision, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } = solver;
 same<[typeof before, typeof epsilon, typeof relativeResidual], [api.CriticalCounts, number | null, number]>(true);
 // @ts-expect-error ε has no default
@@ -218,8 +219,9 @@ smoother.tikhonov(heat, { epsilon: 1, metric: 'euclidean' });
 smoother.tikhonov(heat, { cutoffWavelength: 1, epsilon: 1, metric: 'mass' });
 // @ts-expect-error no such precision
 new Smoother(mesh, { precision: 'half' });
-// @ts-expect-error not built yet
-new Smoother(mesh, { bounds: true });
+new Smoother(mesh, { bounds: true, weights: 'intrinsicDelaunay' });
+// @ts-expect-error true or false
+new Smoother(mesh, { bounds: 'all' });
 same<typeof route, 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none'>(true);
 same<typeof precision, 'double' | 'single' | 'doubleAfterSingle'>(true);
 
@@ -232,8 +234,6 @@ smooth(mesh, heat, { operator: 'fem', cutoffWavelength: 1, precision: 'single' }
 smooth(mesh, heat, { operator: 'fem', epsilon: 1 });
 // @ts-expect-error only finite elements know lengths
 smooth(mesh, heat, { cutoffWavelength: 1 });
-// @ts-expect-error not built yet
-smoother.interpolate(heat, { constraints: [0] });
 
 const short: api.Smoothed = smooth(mesh, heat, {
   epsilon: 1,
@@ -245,6 +245,109 @@ const short: api.Smoothed = smooth(mesh, heat, {
 smooth(mesh, heat, { epsilon: 'auto' });
 // @ts-expect-error ε has no default
 smooth(mesh, heat);
+
+// -------------------------------------------------------------------------------------------------------- constraints
+const named: api.Constraints = new Uint32Array(3);
+const rules: api.Constraints[] = [
+  ...[[0, 7] as const, new Uint16Array(2), { from: 'vertices', vertices: [0, 7] as const, stars: false } as const],
+  { from: 'criticalPoints' },
+  { from: 'criticalPoints', delta: 0.1, deltaIs: 'absolute', link, stars: true },
+  { from: 'persistence', threshold: 0.1, thresholdIs: 'absolute', stars: false },
+  { from: 'kMeans', clusters: 7, seed: 3 },
+];
+const byPersistence: api.PersistenceConstraints = { from: 'persistence', threshold: 0.1 };
+const byClusters: api.KMeansConstraints = { from: 'kMeans', clusters: 7 };
+const byDelta: api.CriticalPointConstraints = { from: 'criticalPoints', link: 'skip' };
+const byNumber: api.VertexConstraints = { from: 'vertices', vertices: named };
+const constrained: Uint32Array = mesh.constrainedVertices(heat, byPersistence, { channels: 3 });
+mesh.constrainedVertices([1, 2, 3], [0]);
+// @ts-expect-error constraints have no default
+mesh.constrainedVertices(heat);
+// @ts-expect-error ids are not signed
+mesh.constrainedVertices(heat, new Int32Array(2));
+// @ts-expect-error a number alone is none
+mesh.constrainedVertices(heat, 7);
+// @ts-expect-error it must be said where they come from
+mesh.constrainedVertices(heat, { threshold: 0.1 });
+// @ts-expect-error no such rule
+mesh.constrainedVertices(heat, { from: 'extrema' });
+// @ts-expect-error the threshold has no default
+mesh.constrainedVertices(heat, { from: 'persistence' });
+// @ts-expect-error nor has the number of clusters
+mesh.constrainedVertices(heat, { from: 'kMeans' });
+// @ts-expect-error nor have vertices
+mesh.constrainedVertices(heat, { from: 'vertices' });
+// @ts-expect-error an option of another rule
+mesh.constrainedVertices(heat, { from: 'kMeans', clusters: 7, delta: 0.1 });
+// @ts-expect-error extrema of the literal rule grow with δ: only a comparison
+mesh.constrainedVertices(heat, { from: 'criticalPoints', rule: 'literal' });
+// @ts-expect-error the smoother's option, not the rule's
+mesh.constrainedVertices(heat, byNumber, { unconstrained: 'keep' });
+
+const interpolated: api.Smoothed = smoother.interpolate(heat, { constraints: byDelta });
+smoother.interpolate(heat, { constraints: [0, 7], energy: 'biharmonic', unconstrained: 'mean', channels: 3 });
+const toInterpolate: api.InterpolateOptions = { constraints: named, energy: 'harmonic', unconstrained: 'error' };
+// @ts-expect-error constraints have no default
+smoother.interpolate(heat, {});
+// @ts-expect-error it has no ε
+smoother.interpolate(heat, { constraints: [0], epsilon: 1 });
+// @ts-expect-error one of two
+smoother.interpolate(heat, { constraints: [0], energy: 'triharmonic' });
+// @ts-expect-error one of three
+smoother.interpolate(heat, { constraints: [0], unconstrained: 'zero' });
+
+const fitted: api.Smoothed = smoother.leastSquares(heat, { constraints: byClusters, epsilon: 0.05 });
+const toFit: api.LeastSquaresOptions = { constraints: [0, 7], epsilon: 1, weights: [1, 2] as const };
+smoother.leastSquares(heat, { ...toFit, weights: new Float32Array(2), unconstrained: 'keep', channels: 2 });
+// @ts-expect-error ε has no default
+smoother.leastSquares(heat, { constraints: [0] });
+// @ts-expect-error nor have constraints
+smoother.leastSquares(heat, { epsilon: 1 });
+// @ts-expect-error it has one energy
+smoother.leastSquares(heat, { constraints: [0], epsilon: 1, energy: 'harmonic' });
+// @ts-expect-error weights are numbers
+smoother.leastSquares(heat, { constraints: [0], epsilon: 1, weights: 'cotangent' });
+
+smooth(mesh, heat, { constraints: byPersistence, epsilon: 1, bounds: true });
+smooth(mesh, heat, { method: 'leastSquares', constraints: [0], epsilon: 1, weights: 'uniform', channels: 3 });
+smooth(mesh, heat, { method: 'interpolate', constraints: byNumber, energy: 'biharmonic', unconstrained: 'keep' });
+const toSmooth: [api.SmoothByLeastSquaresOptions, api.SmoothByInterpolationOptions] = [
+  { constraints: rules[0]!, epsilon: 1 },
+  { method: 'interpolate', constraints: rules[1]! },
+];
+// @ts-expect-error Tikhonov smoothing has no constraints
+smooth(mesh, heat, { method: 'tikhonov', constraints: [0], epsilon: 1 });
+// @ts-expect-error interpolation must be asked for
+smooth(mesh, heat, { constraints: [0], energy: 'harmonic' });
+// @ts-expect-error weights of constraints are for `leastSquares` of a smoother
+smooth(mesh, heat, { constraints: [0], epsilon: 1, weights: [1] });
+// @ts-expect-error an ε for each
+smooth(mesh, heat, { method: 'leastSquares', constraints: [0] });
+
+const { constrainedCriticalPoints, maximumPrinciple } = interpolated.report;
+same<typeof constrainedCriticalPoints | typeof preserved | typeof freeExtrema, number | null>(true);
+same<typeof maximumPrinciple, api.MaximumPrinciple | null>(true);
+const smallestWeight: number | undefined = maximumPrinciple?.smallestWeight;
+const numberOfExtrema: number = maximumPrinciple!.extrema + maximumPrinciple!.meshExtrema;
+// @ts-expect-error there may be none
+const kept: number = interpolated.report.preserved;
+
+// ------------------------------------------------------------------------------------------------------------ filters
+const filtered: api.Smoothed = smoother.lowPass(heat, { iterations: 10 });
+const taubin: api.LowPassOptions = { iterations: 10, lambda: 0.5, mu: -0.53, channels: 3 };
+smoother.lowPass(heat, taubin);
+// @ts-expect-error how often has no default
+smoother.lowPass(heat, {});
+// @ts-expect-error it has no ε
+smoother.lowPass(heat, { iterations: 1, epsilon: 1 });
+const toBlur: api.BilateralOptions = { iterations: 2, radius: 0.1, sigmaDistance: 0.05, sigmaValue: 1, channels: 2 };
+const blurred: api.Smoothed = smoother.bilateral(heat, toBlur);
+// @ts-expect-error the radius has no default
+smoother.bilateral(heat, { iterations: 2, sigmaDistance: 0.05, sigmaValue: 1 });
+// @ts-expect-error nor have the deviations
+smoother.bilateral(heat, { iterations: 2, radius: 0.1 });
+// @ts-expect-error `smooth` solves systems
+smooth(mesh, heat, { method: 'lowPass', iterations: 2 });
 
 // ------------------------------------------------------------------------------------------------------- end and errors
 {
@@ -323,5 +426,6 @@ export const used = [
   ],
   ...[death, persistence, essentialMaxima, simple, toKeep, morsePolylines, partners, into, ascending],
   ...[short, byLength, remade],
+  ...[constrained, toInterpolate, fitted, toSmooth, smallestWeight, numberOfExtrema, kept, filtered, blurred],
   ...[parts, parents, cuts, cutEdges, cutParameters, vanishesAtAbsolute, steps, minimaAt, maximaAt, saddlesAt],
 ];

@@ -156,8 +156,8 @@ export interface LeastSquaresOptions extends ConstraintOptions {
   /** ε > 0. Large fits the constrained values, small smooths. */
   epsilon: number;
   /**
-   * Positive weights of the constrained vertices: for `constraints` by number one for each of them as they are listed (of a
-   * vertex listed twice the larger one counts), else one for each of {@link TriMesh.constrainedVertices}. Default 1 each.
+   * Positive weights of the constrained vertices: for vertices by number, without stars, one for each of them as they are listed
+   * (of a vertex listed twice the larger one counts), else one for each of {@link TriMesh.constrainedVertices}. Default 1 each.
    */
   weights?: Numbers;
 }

@@ -12,6 +12,9 @@ const MOST: f64 = (1 << (BITS - 1)) as f64;
 /// [`MOST`], so that points within the radius are in cells that touch.
 const WIDER: f64 = 1.0 + 1e-6;
 
+/// Takes the points of a cell, and all those that can be near one of them, in nine ranges.
+pub(super) type Visit<'a> = &'a mut dyn FnMut(Range<usize>, &[Range<usize>; 9]);
+
 /// Points in the order of their cells. Cells with following numbers along the first axis follow each other.
 pub(super) struct Grid {
     /// The keys of the cells that hold points, ascending.
@@ -70,9 +73,8 @@ impl Grid {
         &self.points
     }
 
-    /// Hands over the points of every cell, and all those that can be near one of them, in nine ranges. They come in the same
-    /// order whenever it is called.
-    pub(super) fn visit(&self, to: &mut dyn FnMut(Range<usize>, &[Range<usize>; 9])) {
+    /// Goes through all cells, in the same order whenever it is called.
+    pub(super) fn visit(&self, to: Visit<'_>) {
         // Keys ascend, and so do those of the cells beside them: each row is read along.
         let (mut first, mut end) = ([0; 9], [0; 9]);
         let mut near = [const { 0..0 }; 9];

@@ -51,7 +51,7 @@ impl ComplexRoute {
         }
         let product = Product { factor: &factor, size: shift.len() };
         let iterates = iterative::refined(task, &product)?;
-        let eigenvalue = iterative::eigenvalue(task, &product)?;
+        let eigenvalue = iterative::eigenvalue(task, &product);
         Ok(self.factors.answer(task.key, factor, iterates, "cgComplexCholesky", eigenvalue))
     }
 }
@@ -78,6 +78,8 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
         count: task.loads.len(),
         length: 2 * n,
         tolerance,
+        // L is positive semi-definite, so |⟨z, (L + iD) z⟩| ≥ min D · ‖z‖².
+        inverse_norm: shift.iter().copied().reduce(f64::min).map(f64::recip),
         residual: &residual,
         solve: &mut |residuals, _| {
             let pairs = |r: &[f64]| -> Vec<Complex<f64>> { (0..n).map(|i| Complex::new(r[i], r[n + i])).collect() };

@@ -25,17 +25,12 @@ pub(super) fn solve(task: &Task<'_>) -> Result<Answer, SolveError> {
     }
     let jacobi = Jacobi::new(&task.problem.diagonal())?;
     let iterates = refined_within(task, &jacobi, CgOptions::default().max_iterations)?;
-    answer(task, &jacobi, iterates, "cgJacobi")
+    Ok(answer(task, &jacobi, iterates, "cgJacobi"))
 }
 
-fn answer(
-    task: &Task<'_>,
-    preconditioner: &dyn Preconditioner,
-    iterates: Vec<Iterate>,
-    route: &'static str,
-) -> Result<Answer, SolveError> {
-    let smallest_eigenvalue = eigenvalue(task, preconditioner)?;
-    Ok(Answer { iterates, route, precision: "double", factor_nonzeros: 0, smallest_eigenvalue })
+fn answer(task: &Task<'_>, preconditioner: &dyn Preconditioner, iterates: Vec<Iterate>, route: &'static str) -> Answer {
+    let smallest_eigenvalue = eigenvalue(task, preconditioner);
+    Answer { iterates, route, precision: "double", factor_nonzeros: 0, smallest_eigenvalue }
 }
 
 /// With multigrid for the matrix, or twice for its square root; nothing where there is no multigrid for it.
@@ -44,7 +39,7 @@ fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
     let inner = task.problem.inner?;
     if task.problem.order == Order::First {
         let multigrid = Multigrid::new(inner.matrix).ok()?;
-        return Some(refined(task, &multigrid).and_then(|iterates| answer(task, &multigrid, iterates, ROUTE)));
+        return Some(refined(task, &multigrid).map(|iterates| answer(task, &multigrid, iterates, ROUTE)));
     }
     let mut squared = squared_sum(task, inner).ok()?;
     let mut outcome = refined(task, &squared);
@@ -53,7 +48,7 @@ fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
         squared.set_tolerance(TIGHT);
         outcome = refined(task, &squared);
     }
-    Some(outcome.and_then(|iterates| answer(task, &squared, iterates, ROUTE)))
+    Some(outcome.map(|iterates| answer(task, &squared, iterates, ROUTE)))
 }
 
 fn squared_sum(task: &Task<'_>, inner: Inner<'_>) -> Result<SquaredSum, SolveError> {
@@ -64,10 +59,10 @@ fn squared_sum(task: &Task<'_>, inner: Inner<'_>) -> Result<SquaredSum, SolveErr
     })
 }
 
-/// A lower bound of the smallest eigenvalue, if it is wanted.
-pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Result<Option<f64>, SolveError> {
+/// A lower bound of the smallest eigenvalue, if it is wanted and can be found.
+pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Option<f64> {
     if !task.manner.bounds {
-        return Ok(None);
+        return None;
     }
     let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
     smallest_eigenvalue(&task.problem, &mut |b| {
@@ -97,6 +92,7 @@ fn refined_within(
         count: task.loads.len(),
         length: n,
         tolerance: TOLERANCE,
+        inverse_norm: None,
         residual: &|c, x| task.problem.residual(&task.loads[c], x),
         solve: &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];

@@ -12,13 +12,14 @@ mod complex;
 mod eigenvalue;
 mod factors;
 mod iterative;
+mod problem;
 mod real;
 mod refine;
 
-use super::system::{Inner, Load, Manner, Mass, Order, Problem, Pull};
 use super::{Phase, Precision, Progress, SolverChoice};
 use crate::error::SolveError;
 use complex::ComplexRoute;
+pub(super) use problem::{Inner, Load, Mass, Order, Problem, Pull, difference};
 use real::RealRoute;
 use refine::Iterate;
 
@@ -31,6 +32,17 @@ const SINGLE: f64 = 1e-13;
 
 /// What a factor belongs to: ε, and which of the matrices B.
 pub(super) type Key = (f64, u32);
+
+/// How to solve, whatever the system.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Manner {
+    pub(super) choice: SolverChoice,
+    pub(super) precision: Precision,
+    /// Whether L is symmetric.
+    pub(super) symmetric: bool,
+    /// Whether the smallest eigenvalue is wanted, too.
+    pub(super) bounds: bool,
+}
 
 /// One call.
 pub(super) struct Task<'a> {

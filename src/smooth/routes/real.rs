@@ -54,11 +54,12 @@ impl RealRoute {
             count: task.loads.len(),
             length: n,
             tolerance: task.tolerance(precision),
+            inverse_norm: None,
             residual: &|c, x| task.problem.residual(&task.loads[c], x),
             solve: &mut |b, _| factor.solve(b),
         })?;
         let eigenvalue = match task.manner.bounds {
-            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b))?,
+            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b)),
             false => None,
         };
         Ok(self.factors.answer(task.key, factor, iterates, "cholesky", eigenvalue))

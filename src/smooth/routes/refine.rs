@@ -6,6 +6,8 @@ use crate::solve::norm;
 const MOST_STEPS: usize = 12;
 /// Relative corrections of this size are rounding.
 const ROUNDING: f64 = 1e-13;
+/// Relative errors that are certainly no larger than this are not worth a correction.
+const PROVEN: f64 = 1e-14;
 /// Corrections of this size that shrink no more are rounding too, on a badly conditioned system.
 const ROUGH_ROUNDING: f64 = 1e-10;
 
@@ -25,6 +27,8 @@ pub(super) struct Refinement<'a> {
     pub(super) length: usize,
     /// The relative error that is small enough.
     pub(super) tolerance: f64,
+    /// A bound of the norm of the matrix's inverse, where one is known: with it a residual tells that no correction is needed.
+    pub(super) inverse_norm: Option<f64>,
     /// The residual of a right-hand side at an approximate solution.
     pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
@@ -42,13 +46,25 @@ type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>
 /// # Errors
 /// `NotConverged` where corrections do not shrink; those of the solver.
 pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
-    let Refinement { count, length: n, tolerance, residual, solve } = task;
+    let Refinement { count, length: n, tolerance, inverse_norm, residual, solve } = task;
     let start = Iterate { x: vec![0.0; n], ..Iterate::default() };
     let mut iterates = vec![start; count];
     let mut open: Vec<usize> = (0..count).collect();
     let (mut previous, mut slowest) = (vec![1.0; count], vec![0.0_f64; count]);
     for step in 0..=MOST_STEPS {
-        let residuals: Vec<f64> = open.iter().flat_map(|&c| residual(c, &iterates[c].x)).collect();
+        let mut residuals = Vec::with_capacity(open.len() * n);
+        open.retain(|&c| {
+            let rest = residual(c, &iterates[c].x);
+            let error = inverse_norm.map_or(f64::INFINITY, |inverse| inverse * norm(&rest));
+            let is_open = step == 0 || error.is_nan() || error > PROVEN * norm(&iterates[c].x);
+            if is_open {
+                residuals.extend_from_slice(&rest);
+            }
+            is_open
+        });
+        if open.is_empty() {
+            return Ok(iterates);
+        }
         let mut iterations = vec![0; open.len()];
         let corrections = solve(&residuals, &mut iterations)?;
         let mut still_open = Vec::new();

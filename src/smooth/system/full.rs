@@ -2,12 +2,12 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Inner, Load, Manner, Mass, Order, Problem, Pull, Solved, by_vertex, solved};
+use super::{Solved, by_vertex, solved};
 use crate::error::{Result, SolveError};
 use crate::mesh::TriMesh;
 use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
 use crate::smooth::channels::Channel;
-use crate::smooth::routes::{Routes, Task};
+use crate::smooth::routes::{Inner, Load, Manner, Mass, Order, Problem, Pull, Routes, Task};
 use crate::smooth::{Metric, Operator, Progress};
 use crate::solve::submatrix;
 

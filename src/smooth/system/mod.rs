@@ -4,18 +4,15 @@
 //! - [`ReducedSystem`]: some vertices are fixed, the others are the unknowns: eq. (6).
 
 mod full;
-mod problem;
 mod reach;
 mod reduced;
 
 pub(super) use full::{Attraction, FullSystem};
-pub(super) use problem::{Inner, Load, Mass, Order, Problem, Pull, difference};
 pub(super) use reach::Reach;
 pub use reduced::Energy;
 pub(super) use reduced::ReducedSystem;
 
-use super::routes::Answer;
-use super::{Precision, SolverChoice};
+use super::routes::{Answer, Load, Problem};
 use crate::error::{Error, SolveError};
 
 /// One solved channel.
@@ -39,17 +36,6 @@ pub(super) struct Solved {
     pub(super) factor_nonzeros: u64,
     /// See [`Answer`].
     pub(super) smallest_eigenvalue: Option<f64>,
-}
-
-/// How to solve, whatever the system.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Manner {
-    pub(super) choice: SolverChoice,
-    pub(super) precision: Precision,
-    /// Whether L is symmetric.
-    pub(super) symmetric: bool,
-    /// Whether the smallest eigenvalue is wanted, too.
-    pub(super) bounds: bool,
 }
 
 /// The answer as solutions, with their residuals.

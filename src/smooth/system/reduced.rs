@@ -2,11 +2,11 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Inner, Load, Manner, Order, Problem, Solved, by_vertex, solved};
+use super::{Solved, by_vertex, solved};
 use crate::error::Result;
 use crate::mesh::TriMesh;
 use crate::operators::{MassScale, lumped_mass_diagonal};
-use crate::smooth::routes::{Routes, Task};
+use crate::smooth::routes::{Inner, Load, Manner, Order, Problem, Routes, Task};
 use crate::smooth::{Operator, Progress};
 use crate::solve::{columns, product, submatrix};
 

@@ -4,7 +4,7 @@ use js_sys::{Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::{Options, choose, invalid, read, threshold_of};
-use crate::error::{OptionError, Result};
+use crate::error::{Error, OptionError, Result};
 use crate::field::Features;
 use crate::smooth::{Constraints, Unconstrained};
 use crate::wasm::convert::ids;
@@ -70,6 +70,18 @@ impl Options {
             _ if self.vertices.is_instance_of::<Uint32Array>() => None,
             _ => return Err(invalid("vertices", "vertices by number")),
         })
+    }
+}
+
+/// The rule finds its vertices only where they are needed: what is wrong with its numbers is noticed there.
+pub(in crate::wasm) fn from_rule(error: Error) -> Error {
+    match error {
+        Error::Option(OptionError::InvalidOption { option, expected })
+            if ["delta", "threshold", "clusters"].contains(&option.as_str()) =>
+        {
+            within_constraints(OptionError::InvalidOption { option, expected }).into()
+        }
+        other => other,
     }
 }
 

@@ -3,7 +3,7 @@
 mod constraints;
 mod smoothing;
 
-pub(super) use constraints::ConstraintInput;
+pub(super) use constraints::{ConstraintInput, from_rule};
 pub(super) use smoothing::{BILATERAL, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read_smooth};
 
 use js_sys::{Array, Object};

@@ -1,0 +1,254 @@
+//! Interpolation and least squares with constraints against dense algebra, by every solver.
+
+use morse_smooth::field::{DeltaOptions, Features};
+use morse_smooth::mesh::{TriMesh, shapes};
+use morse_smooth::operators::LaplacianWeights;
+use morse_smooth::smooth::{
+    Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Operator, Precision, Smoothed, Smoother,
+    SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained, constrained_vertices,
+};
+
+use crate::dense_reference::{Reference, error, meshes, named, settings, smoother, sparse_set};
+use crate::iterative::{needles, slivers};
+use crate::support::noise;
+
+type Call = dyn Fn(&mut Smoother, &[f64]) -> morse_smooth::Result<Smoothed>;
+
+const ENERGIES: [Energy; 2] = [Energy::Harmonic, Energy::Biharmonic];
+
+fn field(mesh: &TriMesh) -> Vec<f64> {
+    noise(mesh.vertex_count(), 7).iter().map(|x| 40.0 * x - 300.0).collect()
+}
+
+fn interpolate(smoother: &mut Smoother, f: &[f64], vertices: &[u32], energy: Energy) -> morse_smooth::Result<Smoothed> {
+    let constraints = named(vertices, Unconstrained::Keep);
+    smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels: 1 })
+}
+
+fn fit(
+    smoother: &mut Smoother,
+    f: &[f64],
+    vertices: &[u32],
+    weights: Option<&[f64]>,
+    epsilon: f64,
+) -> morse_smooth::Result<Smoothed> {
+    let constraints = named(vertices, Unconstrained::Keep);
+    smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon, weights, channels: 1 })
+}
+
+/// Sparse vertices, and all critical points with their stars.
+fn sets(mesh: &TriMesh, f: &[f64], reference: &Reference) -> [Vec<u32>; 2] {
+    let features = Features::CriticalPoints(DeltaOptions { delta: 0.3, ..DeltaOptions::default() });
+    let stars = Constraints { features, stars: true, unconstrained: Unconstrained::Keep };
+    [sparse_set(reference, 29), constrained_vertices(mesh, f, 1, &stars).unwrap()]
+}
+
+#[test]
+fn interpolations_agree_with_dense_algebra() {
+    for (name, mesh) in meshes() {
+        let f = field(&mesh);
+        for setting in settings() {
+            let mut smoother = smoother(&mesh, setting, SolverChoice::Auto);
+            let reference = Reference::new(&smoother);
+            for set in sets(&mesh, &f, &reference) {
+                for energy in ENERGIES {
+                    let context = format!("{name} {setting:?} {energy:?} {} constraints", set.len());
+                    let found = interpolate(&mut smoother, &f, &set, energy).expect(&context);
+                    let expected = reference.interpolated(&f, &set, energy);
+                    let wrong = error(&f, &found.values, &expected);
+                    assert!(wrong < 1e-10, "{context}: {wrong:e}");
+                    let solver = &found.reports[0].solver;
+                    assert_eq!(solver.unknowns, reference.free(&set).len(), "{context}");
+                    assert_eq!(solver.route, if solver.unknowns == 0 { "none" } else { "cholesky" }, "{context}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn least_squares_agree_with_dense_algebra() {
+    for (name, mesh) in meshes() {
+        let f = field(&mesh);
+        for setting in settings() {
+            let mut smoother = smoother(&mesh, setting, SolverChoice::Auto);
+            let reference = Reference::new(&smoother);
+            for (number, set) in sets(&mesh, &f, &reference).into_iter().enumerate() {
+                let weights: Vec<f64> = noise(set.len(), 5).iter().map(|x| 10.0_f64.powf(2.0 * x)).collect();
+                for (epsilon, weights) in
+                    [(1e-4, None), (1e-2, Some(&weights)), (1.0, None), (1e2, Some(&weights)), (1e4, None)]
+                {
+                    if number == 1 && epsilon == 1e2 {
+                        continue;
+                    }
+                    let mut pull = vec![0.0; f.len()];
+                    set.iter().enumerate().for_each(|(i, &v)| pull[v as usize] = weights.map_or(1.0, |w| w[i]));
+                    let context = format!("{name} {setting:?} {} constraints, ε = {epsilon:e}", set.len());
+                    let found = fit(&mut smoother, &f, &set, weights.map(Vec::as_slice), epsilon).expect(&context);
+                    let expected = reference.least_squares(&f, &pull, epsilon);
+                    let wrong = error(&f, &found.values, &expected);
+                    assert!(wrong < 1e-10, "{context}: {wrong:e}");
+                    assert_eq!(found.reports[0].solver.unknowns, reference.reached(&set).len(), "{context}");
+                }
+            }
+        }
+    }
+}
+
+/// What solver and precision come to, or the code of the error.
+fn outcome(
+    mesh: &TriMesh,
+    (weights, operator): (LaplacianWeights, Operator),
+    (solver, precision): (SolverChoice, Precision),
+    run: &dyn Fn(&mut Smoother) -> morse_smooth::Result<Smoothed>,
+) -> Result<Smoothed, &'static str> {
+    let options = SmootherOptions { weights, operator, solver, precision, ..SmootherOptions::default() };
+    run(&mut Smoother::new(mesh, options).unwrap()).map_err(|error| error.code())
+}
+
+#[test]
+fn every_solver_comes_to_the_same() {
+    use Precision::{Double, Single};
+    for (name, mesh) in meshes() {
+        let f = field(&mesh);
+        for setting in settings() {
+            let reference = Reference::new(&smoother(&mesh, setting, SolverChoice::Auto));
+            let set = sparse_set(&reference, 29);
+            let pull: Vec<f64> = (0..f.len() as u32).map(|v| f64::from(u8::from(set.contains(&v)))).collect();
+            let mut calls: Vec<(String, Vec<f64>, Box<dyn Fn(&mut Smoother) -> morse_smooth::Result<Smoothed>>)> =
+                Vec::new();
+            for energy in ENERGIES {
+                let (f, set) = (&f, &set);
+                let call = Box::new(move |s: &mut Smoother| interpolate(s, f, set, energy));
+                calls.push((format!("{energy:?}"), reference.interpolated(f, set, energy), call));
+            }
+            for epsilon in [1e-2, 1e2] {
+                let (f, set) = (&f, &set);
+                let call = Box::new(move |s: &mut Smoother| fit(s, f, set, None, epsilon));
+                calls.push((format!("ε = {epsilon:e}"), reference.least_squares(f, &pull, epsilon), call));
+            }
+            for (call, expected, run) in &calls {
+                for how in [
+                    (SolverChoice::Auto, Single),
+                    (SolverChoice::Cholesky, Double),
+                    (SolverChoice::Cholesky, Single),
+                    (SolverChoice::ConjugateGradient, Double),
+                ] {
+                    let context = format!("{name} {setting:?} {call} {how:?}");
+                    let found = outcome(&mesh, setting, how, run).expect(&context);
+                    let wrong = error(&f, &found.values, expected);
+                    assert!(wrong < 1e-9, "{context}: {wrong:e}");
+                    let iterates = how.0 == SolverChoice::ConjugateGradient && found.reports[0].solver.unknowns > 0;
+                    assert_eq!(
+                        found.reports[0].solver.route.starts_with("cg") && how.1 == Double,
+                        iterates,
+                        "{context}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn alternating_calls_leave_nothing_behind() {
+    let mesh = shapes::torus(13, 9, 0.4).unwrap();
+    let f = noise(mesh.vertex_count(), 3);
+    let mut bad = f.clone();
+    bad[11] = f64::NAN;
+    for setting in settings() {
+        for solver in [SolverChoice::Auto, SolverChoice::ConjugateGradient] {
+            let fresh = || smoother(&mesh, setting, solver);
+            let mut used = fresh();
+            let (few, many): (Vec<u32>, Vec<u32>) = (vec![0, 50, 99], (0..117).step_by(4).collect());
+            let weights: Vec<f64> = (1..=many.len()).map(|i| i as f64).collect();
+            let tikhonov = |epsilon: f64| {
+                let at = TikhonovOptions { epsilon, ..TikhonovOptions::default() };
+                move |s: &mut Smoother, f: &[f64]| s.tikhonov(f, &at)
+            };
+            let interpolation = |energy: Energy, set: &[u32]| {
+                let set = set.to_vec();
+                move |s: &mut Smoother, f: &[f64]| {
+                    let constraints = named(&set, Unconstrained::Error);
+                    s.interpolate(f, &InterpolateOptions { constraints, energy, channels: 1 })
+                }
+            };
+            let fitting = |set: &[u32], weights: Option<Vec<f64>>, epsilon: f64| {
+                let set = set.to_vec();
+                move |s: &mut Smoother, f: &[f64]| {
+                    let (constraints, weights) = (named(&set, Unconstrained::Error), weights.as_deref());
+                    s.least_squares(f, &LeastSquaresOptions { constraints, epsilon, weights, channels: 1 })
+                }
+            };
+            let calls: Vec<Box<Call>> = vec![
+                Box::new(tikhonov(0.1)),
+                Box::new(fitting(&few, None, 0.1)),
+                Box::new(interpolation(Energy::Harmonic, &few)),
+                Box::new(fitting(&many, None, 0.1)),
+                Box::new(interpolation(Energy::Biharmonic, &few)),
+                Box::new(fitting(&many, Some(weights), 0.1)),
+                Box::new(tikhonov(1e-200)),
+                Box::new(interpolation(Energy::Harmonic, &many)),
+                Box::new(tikhonov(3.0)),
+                Box::new(interpolation(Energy::Harmonic, &[])),
+                Box::new(fitting(&many, Some(vec![0.0]), 0.1)),
+                Box::new(fitting(&[], None, 0.1)),
+            ];
+            for order in [1, 5, 7] {
+                for number in 0..2 * calls.len() {
+                    let call = &calls[number * order % calls.len()];
+                    assert_eq!(repeated(&mut used, call, &f), call(&mut fresh(), &f), "{setting:?} {number}");
+                    assert_eq!(call(&mut used, &bad).unwrap_err().code(), "NonFiniteValue");
+                }
+            }
+        }
+    }
+}
+
+/// Twice by the used smoother, which must be the same.
+fn repeated(used: &mut Smoother, call: &Call, f: &[f64]) -> morse_smooth::Result<Smoothed> {
+    let first = call(used, f);
+    assert_eq!(call(used, f), first);
+    first
+}
+
+#[test]
+fn iterations_on_needles_converge_or_say_that_they_do_not() {
+    let (mut agreed, mut refused) = (0, 0);
+    for (name, mesh) in [("slivers", slivers(20, 1e-5)), ("needles", needles(17))] {
+        let f = field(&mesh);
+        let n = f.len() as u32;
+        for setting in settings() {
+            for set in [vec![n / 2], (0..n).step_by(40).collect(), (0..n).filter(|v| v % 3 > 0).collect()] {
+                let (f, set) = (&f, &set);
+                let mut calls: Vec<(String, Box<Call>)> = Vec::new();
+                for energy in ENERGIES {
+                    calls.push((format!("{energy:?}"), Box::new(move |s, f| interpolate(s, f, set, energy))));
+                }
+                for epsilon in [1e-3, 10.0] {
+                    calls.push((format!("ε = {epsilon:e}"), Box::new(move |s, f| fit(s, f, set, None, epsilon))));
+                }
+                for (call, run) in calls {
+                    let context = format!("{name} {setting:?} {} constraints {call}", set.len());
+                    let [direct, iterative] = [SolverChoice::Cholesky, SolverChoice::ConjugateGradient]
+                        .map(|solver| outcome(&mesh, setting, (solver, Precision::Double), &|s| run(s, f)));
+                    match (direct, iterative) {
+                        (Ok(direct), Ok(found)) => {
+                            let wrong = error(f, &found.values, &direct.values);
+                            assert!(wrong < 1e-8, "{context}: {wrong:e}");
+                            agreed += 1;
+                        }
+                        (direct, iterative) => {
+                            for code in [direct, iterative].into_iter().filter_map(Result::err) {
+                                assert!(["NotConverged", "NotPositiveDefinite"].contains(&code), "{context}: {code}");
+                            }
+                            refused += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    // Without symmetry, and with a mass of needles.
+    assert!(agreed > 80 && refused < 40, "{agreed} {refused}");
+}
