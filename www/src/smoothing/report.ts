@@ -86,7 +86,7 @@ function methodOf(method: Method, { metric, energy, isDiffusion }: AfterReport['
     interpolate: `, ${energy}`,
     lowPass: isDiffusion ? ', diffusion' : ', λ | μ',
   };
-  return `${METHODS[method]}${kinds[method] ?? ''}${equation?.startsWith('(') ? ` ${equation}` : ''}`;
+  return `${METHODS[method]}${kinds[method] ?? ''}${equation?.startsWith('(') ? `\u00a0${equation}` : ''}`;
 }
 
 function change(report: AfterReport): Group {
