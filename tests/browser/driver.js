@@ -84,6 +84,33 @@ export class Page {
     return texts.map((text) => Number(text.replaceAll(',', '')));
   }
 
+  /** Chooses from a list, and waits for the end of it. */
+  choose(id, option) {
+    return this.after(() => this.at(id).selectOption(option));
+  }
+
+  /** Types a number, as a person does. */
+  type(id, number) {
+    return this.after(async () => {
+      await this.at(id).fill(String(number));
+      await this.at(id).press('Tab');
+    });
+  }
+
+  /** The vertices with rings around them, which both views have. */
+  async ringed() {
+    const sides = ['before', 'after'].map((side) => this.at(side).getAttribute('data-constrained'));
+    const [before, after] = await Promise.all(sides);
+    if (before !== after) throw new Error(`rings around ${before} before, around ${after} after`);
+    return before === '' ? [] : before.split(' ').map(Number);
+  }
+
+  /** How many vertices are constrained and how many of them are feature points, as the form says. */
+  async constrained() {
+    const [all, features] = (await this.text('constrained')).replaceAll(',', '').match(/\d+/g).map(Number);
+    return { all, features };
+  }
+
   /** Moves a slider as a drag does: many values in a row, none of them waited for. */
   slide(id, values) {
     return this.at(id).evaluate((slider, positions) => {
@@ -141,7 +168,9 @@ export class Page {
 
   /** Elements that stick out of the page sideways, or out of the view that they are in. */
   overflow() {
-    return this.page.evaluate(() => {
+    return this.page.evaluate(async () => {
+      // The plots follow their boxes in the next frame.
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       const width = document.documentElement.clientWidth;
       return [...document.body.querySelectorAll('*')]
         .filter((element) => {

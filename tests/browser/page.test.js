@@ -239,10 +239,10 @@ describe('controls', () => {
   test('the smoothed field is saved as PLY', async () => {
     await openTorus();
     const [download] = await Promise.all([page.page.waitForEvent('download'), page.at('save').click()]);
-    expect(download.suggestedFilename()).toBe('torus_irregular_smoothed.ply');
+    expect(download.suggestedFilename()).toBe('torus_irregular_tikhonov.ply');
     const { mesh, fields } = readMesh(readFileSync(await download.path()));
-    expect(Object.keys(fields)).toEqual(['noisy', 'noisy_smoothed']);
-    const { minima, maxima, saddles } = mesh.criticalPoints(fields.noisy_smoothed).counts;
+    expect(Object.keys(fields)).toEqual(['noisy', 'noisy_tikhonov']);
+    const { minima, maxima, saddles } = mesh.criticalPoints(fields.noisy_tikhonov).counts;
     expect([minima, maxima, saddles]).toEqual(await page.counts('after'));
     mesh.free();
   });

@@ -240,13 +240,13 @@ describe('persistence diagram', () => {
 describe('simplifying', () => {
   test('says what it did, without what only smoothing has', async () => {
     await openTorus();
-    expect(await page.text('read-pairs')).toBe('–');
+    expect(await page.at('read-pairs').count()).toBe(0);
     await simplify();
     const dropped = pairs.extrema.length - (kept(0.1)[0] + kept(0.1)[1] - 2);
     expect((await page.text('read-pairs')).replaceAll(',', '')).toBe(String(dropped));
     expect(parseFloat(await page.text('read-linf'))).toBeGreaterThan(0);
     expect(parseFloat(await page.text('read-linf'))).toBeLessThanOrEqual(10);
-    for (const id of ['read-residual', 'read-solver']) expect(await page.text(id)).toBe('–');
+    for (const id of ['read-residual', 'read-solver']) expect(await page.at(id).count()).toBe(0);
     for (const id of ['epsilon', 'epsilon-number', 'metric']) expect(await page.at(id).isVisible()).toBe(false);
     await page.after(() => page.at('method').selectOption('tikhonov'));
     expect(await page.text('read-residual')).toMatch(/e−/);

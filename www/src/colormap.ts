@@ -29,6 +29,37 @@ export function colormapBytes(name: ColormapName): Uint8Array<ArrayBuffer> {
 }
 
 /**
+ * From decrease over no change to increase: Kenneth Moreland's cool-warm map, grey in the middle and so seen on white.
+ * See "Diverging Color Maps for Scientific Visualization" (2009).
+ */
+const DIVERGING: readonly [number, number, number][] = [
+  [59, 76, 192],
+  [98, 130, 234],
+  [141, 176, 254],
+  [184, 208, 249],
+  [221, 221, 221],
+  [245, 196, 173],
+  [244, 154, 123],
+  [222, 96, 77],
+  [180, 4, 38],
+];
+
+/** RGBA, four bytes a colour; zero is in the middle. */
+export function differenceBytes(): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(4 * SAMPLES);
+  for (let k = 0; k < SAMPLES; k++) {
+    const place = (k / (SAMPLES - 1)) * (DIVERGING.length - 1);
+    const from = Math.min(DIVERGING.length - 2, Math.floor(place));
+    for (let c = 0; c < 3; c++) {
+      const [low, high] = [DIVERGING[from]![c]!, DIVERGING[from + 1]![c]!];
+      bytes[4 * k + c] = Math.round(low + (place - from) * (high - low));
+    }
+    bytes[4 * k + 3] = 255;
+  }
+  return bytes;
+}
+
+/**
  * One colour between two levels: that of the middle of the band. `levels` are shares of the range, ascending. The texture is
  * read for every pixel, so that the bands' edges do not follow those of the mesh.
  */

@@ -1,13 +1,14 @@
 /** The form: reads settings from it, writes settings into it, and says when the user changed something. */
-import type { Link, Metric } from 'morse-smooth';
+import type { Link } from 'morse-smooth';
 import { COLORMAPS } from './colormap';
 import type { ColormapName } from './colormap';
-import { element } from './dom';
+import { clamp, element, input, select } from './dom';
 import type { Example } from './examples';
-import type { Colouring, FieldEntry, LevelPlaces, Method, Settings } from './protocol';
+import type { Colouring, FieldEntry, LevelPlaces, Settings } from './protocol';
+import { SmoothingControls } from './smoothing/controls';
+import type { Rule } from './smoothing/settings';
 import type { Layers } from './viewer';
 
-const EPSILON_RANGE = [1e-6, 1e4] as const;
 const DELTA_RANGE = [0, 0.5] as const;
 const PERSISTENCE_RANGE = [0, 1] as const;
 const LEVELS_RANGE = [0, 60] as const;
@@ -18,8 +19,8 @@ const ORIGINS: readonly [FieldEntry['origin'], string][] = [
   ['coordinate', 'Coordinates'],
 ];
 
-/** All settings but those that are made in the persistence diagram. */
-export type Choices = Omit<Settings, 'overrides' | 'paths'>;
+/** All settings but those that are made on the surface, in the table and in the persistence diagram. */
+export type Choices = Omit<Settings, 'overrides' | 'picked' | 'paths'>;
 
 export interface ControlEvents {
   settings(): void;
@@ -38,20 +39,12 @@ export interface ControlEvents {
   stop(): void;
 }
 
-const input = (id: string): HTMLInputElement => element(`#${id}`, HTMLInputElement);
-const select = (id: string): HTMLSelectElement => element(`#${id}`, HTMLSelectElement);
-const clamp = (value: number, [low, high]: readonly [number, number]): number => Math.min(high, Math.max(low, value));
-
 export class Controls {
-  private readonly epsilon = input('epsilon');
-  private readonly epsilonNumber = input('epsilon-number');
   private readonly delta = input('delta');
   private readonly deltaNumber = input('delta-number');
   private readonly levels = input('levels');
   private readonly field = select('field');
-  private readonly metric = select('metric');
   private readonly link = select('link');
-  private readonly method = select('method');
   private readonly persistence = input('persistence');
   private readonly persistenceNumber = input('persistence-number');
   private readonly colouring = select('colouring');
@@ -60,6 +53,7 @@ export class Controls {
   /** What is shown or not without being computed anew. */
   private readonly layerBoxes = [input('show-glyphs'), input('show-levels'), input('show-edges')] as const;
   private readonly example = select('example');
+  private readonly smoothing: SmoothingControls;
 
   constructor(
     examples: readonly Example[],
@@ -67,6 +61,7 @@ export class Controls {
     private readonly events: ControlEvents,
   ) {
     for (const { id, label } of examples) this.example.add(new Option(label, id));
+    this.smoothing = new SmoothingControls(() => events.settings());
     this.write(initial);
     this.wireSettings();
     this.wireDisplay();
@@ -76,14 +71,12 @@ export class Controls {
   /** The number boxes hold the exact values; the sliders follow them to their nearest step. */
   read(): Choices {
     return {
+      ...this.smoothing.read(),
       field: this.field.value,
-      metric: this.metric.value as Metric,
-      epsilon: Number(this.epsilonNumber.value),
       delta: Number(this.deltaNumber.value),
       link: this.link.value as Link,
       levels: Number(this.levels.value),
       levelPlaces: this.levelPlaces.value as LevelPlaces,
-      method: this.method.value as Method,
       persistence: Number(this.persistenceNumber.value),
       colouring: this.colouring.value as Colouring,
       complex: this.complex.checked,
@@ -92,17 +85,14 @@ export class Controls {
 
   write(settings: Choices): void {
     this.field.value = settings.field;
-    this.metric.value = settings.metric;
     this.link.value = settings.link;
     this.levels.value = String(settings.levels);
     this.levelPlaces.value = settings.levelPlaces;
-    this.method.value = settings.method;
     this.colouring.value = settings.colouring;
     this.complex.checked = settings.complex;
-    this.writeEpsilon(settings.epsilon);
+    this.smoothing.write(settings);
     this.writeDelta(settings.delta);
     this.writePersistence(settings.persistence);
-    this.showMethod();
     this.showLayers();
   }
 
@@ -130,11 +120,13 @@ export class Controls {
     element('#save', HTMLButtonElement).disabled = !saveable;
   }
 
-  private writeEpsilon(value: number): void {
-    const epsilon = clamp(value, EPSILON_RANGE);
-    this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
-    this.epsilon.value = String(Math.log10(epsilon));
-    this.epsilon.setAttribute('aria-valuetext', this.epsilonNumber.value);
+  writeRule(rule: Rule): void {
+    this.smoothing.writeRule(rule);
+  }
+
+  /** What the filters' multiples are of. */
+  setUnits(units: { meanEdge?: number; width?: number }): void {
+    this.smoothing.setUnits(units);
   }
 
   /** As far as the curve goes: beyond it nothing changes. */
@@ -158,14 +150,6 @@ export class Controls {
     this.persistence.setAttribute('aria-valuetext', this.persistenceNumber.value);
   }
 
-  /** Only what the method takes. */
-  private showMethod(): void {
-    const isSimplify = this.method.value === 'simplify';
-    for (const part of document.querySelectorAll<HTMLElement>('[data-for-method]'))
-      part.hidden = part.dataset['forMethod'] !== this.method.value;
-    element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
-  }
-
   private showLayers(): void {
     const [glyphs, levels, edges] = this.layerBoxes;
     this.events.layers({
@@ -173,17 +157,14 @@ export class Controls {
       levels: levels.checked,
       edges: edges.checked,
       complex: this.complex.checked,
-      basins: this.colouring.value !== 'value',
+      basins: this.colouring.value === 'minima' || this.colouring.value === 'maxima',
+      difference: this.colouring.value === 'difference',
     });
   }
 
   private wireSettings(): void {
     const { events } = this;
     // Sliders report while they move; the client drops what a newer position makes stale.
-    this.epsilon.addEventListener('input', () => {
-      this.writeEpsilon(Number((10 ** Number(this.epsilon.value)).toPrecision(3)));
-      events.settings();
-    });
     this.delta.addEventListener('input', () => {
       this.writeDelta(Number(this.delta.value));
       this.changeDelta();
@@ -203,7 +184,6 @@ export class Controls {
         changed();
       });
     };
-    number(this.epsilonNumber, this.initial.epsilon, (value) => this.writeEpsilon(value));
     number(
       this.deltaNumber,
       this.initial.delta,
@@ -219,13 +199,8 @@ export class Controls {
     number(this.levels, this.initial.levels, (value) => {
       this.levels.value = String(Math.round(clamp(value, LEVELS_RANGE)));
     });
-    for (const choice of [this.metric, this.link, this.levelPlaces])
-      choice.addEventListener('change', () => events.settings());
+    for (const choice of [this.link, this.levelPlaces]) choice.addEventListener('change', () => events.settings());
     this.field.addEventListener('change', () => events.field());
-    this.method.addEventListener('change', () => {
-      this.showMethod();
-      events.settings();
-    });
     element('#controls', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
   }
 

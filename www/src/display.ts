@@ -91,6 +91,33 @@ export function shadesOf(values: Float64Array, [low, high]: [number, number]): F
   return shades;
 }
 
+/** After − before as shades: 0.5 where nothing has changed, 0 or 1 at the largest difference. */
+export function differenceOf(
+  before: Float64Array,
+  after: Float64Array,
+): { largest: number; shades: Float32Array<ArrayBuffer> } {
+  let largest = 0;
+  for (let i = 0; i < after.length; i++) largest = Math.max(largest, Math.abs(after[i]! - before[i]!));
+  const shades = new Float32Array(after.length);
+  for (let i = 0; i < after.length; i++) shades[i] = largest > 0 ? 0.5 + (after[i]! - before[i]!) / largest / 2 : 0.5;
+  return { largest, shades };
+}
+
+/** The mean length of the triangles' sides. */
+export function meanEdgeOf(positions: Float64Array, triangles: Uint32Array): number {
+  let sum = 0;
+  for (let k = 0; k < triangles.length; k++) {
+    const from = 3 * triangles[k]!;
+    const to = 3 * triangles[k % 3 === 2 ? k - 2 : k + 1]!;
+    sum += Math.hypot(
+      positions[to]! - positions[from]!,
+      positions[to + 1]! - positions[from + 1]!,
+      positions[to + 2]! - positions[from + 2]!,
+    );
+  }
+  return sum > 0 ? sum / triangles.length : 1;
+}
+
 /** Pairs of points, six numbers a segment. */
 export function segmentsOf(lines: LevelSets, placement: Placement): Float32Array<ArrayBuffer> {
   return segments(

@@ -9,6 +9,13 @@ export function element<T extends Element>(
   return found;
 }
 
+export const input = (id: string): HTMLInputElement => element(`#${id}`, HTMLInputElement);
+export const select = (id: string): HTMLSelectElement => element(`#${id}`, HTMLSelectElement);
+
+export function clamp(value: number, [low, high]: readonly [number, number]): number {
+  return Math.min(high, Math.max(low, value));
+}
+
 /** Three significant digits, with an exponent only where the plain number would be long. */
 export function short(value: number): string {
   if (value === 0) return '0';
@@ -24,4 +31,8 @@ export function short(value: number): string {
 
 export function whole(value: number): string {
   return value.toLocaleString('en').replace('-', '−');
+}
+
+export function duration(milliseconds: number): string {
+  return milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
 }

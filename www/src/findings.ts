@@ -1,6 +1,6 @@
 /** What the worker finds out about a field, as the parts that the page is sent. No state: session.ts knows what is due. */
 import type { MorseComplex, PersistencePairs, TriMesh } from 'morse-smooth';
-import { pathsOf, placed, rangeOf, segmentsOf } from './display';
+import { differenceOf, pathsOf, placed, rangeOf, segmentsOf } from './display';
 import type { Placement } from './display';
 import type { Pairs, Part, Settings, Side } from './protocol';
 import { keptPairs } from './reading/pairs';
@@ -19,6 +19,7 @@ export function hierarchyPart(mesh: TriMesh, side: Side, values: Float64Array, {
       vertices: new Uint32Array(vertices),
       kinds: new Int8Array(kinds),
       vanishesAt: new Float64Array(vanishesAt),
+      values: Float64Array.from(vertices, (vertex) => values[vertex]!),
       delta: new Float64Array(delta),
       minima: new Uint32Array(minima),
       maxima: new Uint32Array(maxima),
@@ -110,6 +111,10 @@ export function complexPart(
     descending: pathsOf(complex, -1, placement),
     ascending: pathsOf(complex, 1, placement),
   };
+}
+
+export function differencePart(before: Float64Array, after: Float64Array): Part {
+  return { kind: 'difference', ...differenceOf(before, after) };
 }
 
 /** Whole lines take room: on a mesh of more vertices none are sent, and pairs are lit without the way between them. */

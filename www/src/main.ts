@@ -1,13 +1,11 @@
 /** The page: joins the controls, the worker, the two views and the plots. What is computed, and when, is the worker's business. */
 import { Client } from './client';
-import { bandedBytes, basinColours, colormapBytes } from './colormap';
-import type { ColormapName } from './colormap';
+import { Colours } from './colours';
 import { Controls } from './controls';
-import { whole } from './dom';
+import { element } from './dom';
 import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
-import { Legend } from './legend';
 import { Panel } from './panel';
 import type { MeshSummary, Part, Request, Settings } from './protocol';
 import { NO_OVERRIDES } from './reading/pairs';
@@ -15,25 +13,31 @@ import { Paths } from './reading/paths';
 import { Reading } from './reading/reading';
 import type { Lit } from './reading/reading';
 import { clearReport, showMesh, showReport } from './readout';
+import { Constraining } from './smoothing/constraining';
+import { ReportPanel } from './smoothing/report';
+import { INITIAL_SMOOTHING } from './smoothing/settings';
 import { Status } from './status';
+import { makeTabs } from './tabs';
 import { link } from './viewer';
 
 const OPENING = EXAMPLES[0]!;
 const INITIAL: Settings = {
+  ...INITIAL_SMOOTHING,
   field: '',
-  metric: 'mass',
   epsilon: OPENING.epsilon,
   delta: 0,
   link: 'consecutive',
   levels: OPENING.levels,
   levelPlaces: 'even',
-  method: 'tikhonov',
   persistence: 0.1,
   overrides: NO_OVERRIDES,
   colouring: 'value',
   complex: false,
   paths: false,
 };
+
+/** For another mesh: pairs and vertices are those of one. */
+const NO_DECISIONS = { overrides: NO_OVERRIDES, picked: [] } as const;
 
 /** What was opened last, kept so that it can be given to a new worker. */
 interface Source {
@@ -43,9 +47,10 @@ interface Source {
 }
 
 const status = new Status();
-const legend = new Legend();
 const panels = { before: new Panel('before'), after: new Panel('after') };
 if (panels.before.viewer && panels.after.viewer) link(panels.before.viewer, panels.after.viewer);
+const colours = new Colours(panels);
+const report = new ReportPanel();
 
 let source: Source | null = null;
 /** Becomes `source` when the worker has accepted it. */
@@ -55,13 +60,6 @@ let accepted: Settings = INITIAL;
 let lit: Lit | null = null;
 let wantsPaths = false;
 let paths: Paths | null = null;
-/** Colours by value: the map, in bands between the levels or not, over the range of the field before. */
-let map: ColormapName = 'viridis';
-let banded = false;
-let levels: number[] = [];
-let valueRange: [number, number] = [0, 1];
-/** How many there are on each side. */
-const basins = { before: 0, after: 0 };
 /** Counts examples asked for, so that a slow download does not overtake a later choice. */
 let choice = 0;
 
@@ -74,7 +72,7 @@ const controls = new Controls(EXAMPLES, INITIAL, {
   delta: showDelta,
   persistence: (value) => reading.setThreshold(value),
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
-  colours: setColours,
+  colours: (name, banded) => colours.setMap(name, banded),
   example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
   meshFile: (file) => openFiles([file]),
   fieldFile: addField,
@@ -94,8 +92,24 @@ const reading = new Reading({
     controls.changePersistence();
   },
   overrides: update,
+  toggle: (ends) => constraining.toggle(ends),
   lit: light,
 });
+const constraining = new Constraining({
+  picked: update,
+  rule: (rule) => controls.writeRule(rule),
+  marked: (found) => {
+    for (const panel of Object.values(panels)) panel.setConstrained(found);
+  },
+  chosen: (vertices) => reading.setChosen(vertices),
+  point: (point) => {
+    for (const panel of Object.values(panels)) panel.setSpot(point);
+  },
+});
+eachViewer((viewer) => {
+  viewer.onPick = (vertex) => constraining.toggle([vertex]);
+});
+makeTabs(element('.tabs', HTMLElement));
 reading.setState(INITIAL.delta, INITIAL.persistence, INITIAL.overrides);
 
 const client = new Client({
@@ -126,14 +140,15 @@ const client = new Client({
 });
 
 function readSettings(): Settings {
-  return { ...controls.read(), overrides: reading.overrides, paths: wantsPaths };
+  return { ...controls.read(), overrides: reading.overrides, picked: constraining.vertices, paths: wantsPaths };
 }
 
 function writeSettings(settings: Settings): void {
   controls.write(settings);
   reading.setState(settings.delta, settings.persistence, settings.overrides);
+  constraining.vertices = settings.picked;
   for (const panel of Object.values(panels)) panel.setDelta(settings.delta);
-  nameColours();
+  showChoices();
 }
 
 /** They are about the pairs of one field. */
@@ -171,17 +186,15 @@ function show(part: Part): void {
       return showValues(part);
     case 'hierarchy':
       reading.setHierarchy(part.side, part.hierarchy);
+      if (part.side === 'before') constraining.setHierarchy(part.hierarchy);
       if (shown) panels[part.side].setHierarchy(part.counts, part.hierarchy, shown.topology, controls.read().delta);
       return;
     case 'pairs':
-      return reading.setPairs(part.pairs, part.range);
+      reading.setPairs(part.pairs, part.range);
+      return constraining.setPairs(part.pairs);
     case 'lines':
       panels[part.side].viewer?.setLines(part.segments);
-      if (part.side === 'before') {
-        levels = part.levels;
-        legend.setLevels(levels);
-        if (banded) paint();
-      }
+      if (part.side === 'before') colours.setLevels(part.levels);
       return;
     case 'complex':
       return panels[part.side].viewer?.setComplex(part.descending, part.ascending);
@@ -189,12 +202,17 @@ function show(part: Part): void {
       paths = new Paths(part.arcs);
       return light(lit);
     case 'basins':
-      basins[part.side] = part.count;
-      panels[part.side].viewer?.setBasins(basinColours(part.colours));
-      return nameColours();
+      return colours.setBasins(part);
+    case 'constraints':
+      return constraining.setFound(part.found);
+    case 'difference':
+      return colours.setDifference(part.largest, part.shades);
     case 'report':
       controls.setSaveable(true);
+      report.show(part.report);
       return showReport(part.report);
+    case 'unsmoothed':
+      return clearAfter(part.reason.message);
     case 'saved':
       return download(part.name, part.bytes);
   }
@@ -206,6 +224,8 @@ function showNewMesh({ summary, mesh }: Extract<Part, { kind: 'mesh' }>): void {
   source = offered ?? source;
   offered = null;
   showMesh(summary);
+  controls.setUnits({ meanEdge: summary.meanEdge });
+  constraining.setMesh(summary.topology.components);
   showSource();
   eachViewer((viewer) => viewer.setMesh({ ...mesh, up: source?.example?.up ?? mesh.up }));
   if (isNew) resetView();
@@ -214,13 +234,20 @@ function showNewMesh({ summary, mesh }: Extract<Part, { kind: 'mesh' }>): void {
 function showValues({ side, label, range, shades }: Extract<Part, { kind: 'values' }>): void {
   panels[side].setShades(label, shades);
   if (side === 'after') return;
-  valueRange = range;
   paths = null;
-  legend.setRange(label, range);
+  colours.setField(label, range);
+  controls.setUnits({ width: range[1] - range[0] });
   // The field is another one: what stands on the other side belongs to the last.
-  panels.after.clear('Smoothing…');
+  clearAfter('Smoothing…');
+}
+
+/** `text`: why there is nothing. */
+function clearAfter(text: string): void {
+  panels.after.clear(text);
   reading.setHierarchy('after', null);
+  colours.clearDifference();
   clearReport();
+  report.clear(text);
   controls.setSaveable(false);
 }
 
@@ -242,7 +269,7 @@ function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
 // ---------------------------------------------------------------- what the user asks for
 
 function update(): void {
-  nameColours();
+  showChoices();
   ask({ kind: 'update', settings: readSettings() });
 }
 
@@ -263,7 +290,7 @@ async function openExample(example: Example): Promise<void> {
     const file = await fetchExample(example);
     if (mine !== choice) return;
     const { field, epsilon, levels } = example;
-    writeSettings({ ...readSettings(), epsilon, levels, delta: 0, overrides: NO_OVERRIDES });
+    writeSettings({ ...readSettings(), epsilon, levels, delta: 0, ...NO_DECISIONS });
     offered = { file, example, added: [] };
     open(offered, { ...readSettings(), field });
   } catch (error) {
@@ -277,7 +304,7 @@ function openFiles(files: File[]): void {
   if (mesh) {
     choice += 1;
     offered = { file: mesh, example: null, added: [] };
-    writeSettings({ ...readSettings(), delta: 0, overrides: NO_OVERRIDES });
+    writeSettings({ ...readSettings(), delta: 0, ...NO_DECISIONS });
     open(offered, { ...readSettings(), field: '' });
   }
   for (const file of files) if (isFieldName(file.name)) addField(file);
@@ -307,30 +334,11 @@ function complain(code: string, message: string): void {
   if (!client.busy) status.idle();
 }
 
-function setColours(name: ColormapName, inBands: boolean): void {
-  map = name;
-  banded = inBands;
-  paint();
-}
-
-function paint(): void {
-  const [low, high] = valueRange;
-  const smooth = colormapBytes(map);
-  const bytes = banded
-    ? bandedBytes(
-        smooth,
-        levels.map((level) => (level - low) / (high - low)),
-      )
-    : smooth;
-  legend.setColormap(bytes);
-  eachViewer((viewer) => viewer.setColormap(bytes, banded));
-}
-
-/** What the colours mean, where they are not those of the bar. */
-function nameColours(): void {
-  const { colouring } = controls.read();
-  const counts = `${whole(basins.before)} → ${whole(basins.after)}`;
-  legend.setBasins(colouring === 'value' ? null : `${counts} basins of ${colouring}`);
+/** What does not wait for the worker. */
+function showChoices(): void {
+  const { colouring, method, rule } = controls.read();
+  colours.name(colouring);
+  constraining.setMethod(method, rule);
 }
 
 /** At once: the page knows the critical points of every δ. */
@@ -353,7 +361,6 @@ function resetView(): void {
   panels.before.viewer?.frameMesh(source?.example?.view ?? DEFAULT_VIEW);
 }
 
-paint();
 acceptDrops(openFiles);
 // An address can name the example to open: …/#torus.
 void openExample(EXAMPLES.find(({ id }) => location.hash === `#${id}`) ?? OPENING);

@@ -1,12 +1,18 @@
-/** A pair of critical points that is pointed at: both large, with a bright rim, and a line between them. */
+/** What is pointed at, a critical point or a pair of them: large, with a bright rim, and a line between the two. */
 import { Group } from 'three';
 import { CurveLayer } from './curves';
-import { GlyphLayer, SADDLE } from './glyphs';
+import { GlyphLayer } from './glyphs';
 import type { DisplayMesh } from './protocol';
-import type { Lit } from './reading/reading';
 
 const BRIGHT = 0xffd21f;
 const RADIUS = 0.03;
+
+/** Entry k of both arrays is about the same point. */
+export interface LitPoints {
+  vertices: Uint32Array;
+  /** −1 minimum, 0 saddle, 1 maximum; for any other vertex 0, too. */
+  kinds: Int8Array;
+}
 
 export class Marker {
   readonly group = new Group();
@@ -28,9 +34,7 @@ export class Marker {
     for (const line of [this.path, this.ghostPath]) line.set(new Float32Array(0));
   }
 
-  set({ extremum, saddle, kind }: Lit, mesh: DisplayMesh, normals: Float32Array, path: Float32Array): void {
-    const vertices = Uint32Array.of(extremum, saddle);
-    const kinds = Int8Array.of(kind, SADDLE);
+  set({ vertices, kinds }: LitPoints, mesh: DisplayMesh, normals: Float32Array, path: Float32Array): void {
     for (const layer of [this.glyphs, this.ghosts]) layer.set(vertices, kinds, mesh.positions, normals, RADIUS);
     for (const line of [this.path, this.ghostPath]) line.set(path);
   }

@@ -1,7 +1,9 @@
 /** One side of the page, before or after: its view, its counts and its check of Euler's formula. */
 import type { CriticalCounts, MeshTopology } from 'morse-smooth';
+import { differenceBytes } from './colormap';
 import { element, whole } from './dom';
-import type { Hierarchy, Side } from './protocol';
+import { SADDLE } from './glyphs';
+import type { Found, Hierarchy, Side } from './protocol';
 import type { Lit } from './reading/reading';
 import { criticalAt, countsAt } from './reading/steps';
 import { Viewer } from './viewer';
@@ -17,7 +19,7 @@ export class Panel {
   constructor(side: Side) {
     this.root = element(`[data-testid="${side}"]`, HTMLElement);
     try {
-      this.viewer = new Viewer(element('canvas', HTMLCanvasElement, this.root));
+      this.viewer = new Viewer(element('canvas', HTMLCanvasElement, this.root), differenceBytes());
     } catch {
       this.viewer = null;
     }
@@ -59,7 +61,25 @@ export class Panel {
     if (pair && !this.awaiting) this.root.dataset['lit'] = `${pair.extremum} ${pair.saddle}`;
     else delete this.root.dataset['lit'];
     this.root.dataset['path'] = String((path?.length ?? 0) / 6);
-    this.viewer?.setLit(pair, path);
+    const points = pair && {
+      vertices: Uint32Array.of(pair.extremum, pair.saddle),
+      kinds: Int8Array.of(pair.kind, SADDLE),
+    };
+    this.viewer?.setLit(points, path);
+  }
+
+  /** A single point instead of a pair. */
+  setSpot(spot: { vertex: number; kind: number } | null): void {
+    this.setLit(null);
+    if (!spot || this.awaiting) return;
+    this.root.dataset['lit'] = String(spot.vertex);
+    const kind = Math.abs(spot.kind) === 1 ? spot.kind : SADDLE;
+    this.viewer?.setLit({ vertices: Uint32Array.of(spot.vertex), kinds: Int8Array.of(kind) });
+  }
+
+  setConstrained(found: Found): void {
+    this.root.dataset['constrained'] = [...found.features].join(' ');
+    this.viewer?.setConstrained(found);
   }
 
   /** On every mesh the indices of all vertices add up to its Euler characteristic; on a closed one that is m + M − s. */

@@ -4,13 +4,12 @@
  * The page sends one request at a time and the worker answers each with any number of parts, then `done` or `failed`.
  * Only what changed is sent, so that a δ slider does not resend the mesh.
  */
-import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, Metric } from 'morse-smooth';
+import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, SmoothReport } from 'morse-smooth';
+import type { Method, Smoothing } from './smoothing/settings';
 
 export type Side = 'before' | 'after';
-/** What makes the field on the right: least squares, or the removal of pairs of critical points. */
-export type Method = 'tikhonov' | 'simplify';
-/** What colours the surface: the values, or the basins of one kind of extremum. */
-export type Colouring = 'value' | 'minima' | 'maxima';
+/** What colours the surface: the values, the basins of one kind of extremum or, on the right, what has changed. */
+export type Colouring = 'value' | 'minima' | 'maxima' | 'difference';
 /** Where the level sets are: evenly over the range, or on either side of saddles. */
 export type LevelPlaces = 'even' | 'saddles';
 
@@ -21,17 +20,14 @@ export interface Overrides {
 }
 
 /** Everything that the numbers on the page depend on. `field` is a key of `MeshSummary.fields`. */
-export interface Settings {
+export interface Settings extends Smoothing {
   field: string;
-  metric: Metric;
-  epsilon: number;
   /** Relative to the largest difference over an edge. */
   delta: number;
   link: Link;
   /** Number of level sets; with `levelPlaces` at saddles, the number of saddles. */
   levels: number;
   levelPlaces: LevelPlaces;
-  method: Method;
   /** Pairs of persistence above it are kept; relative to the range. */
   persistence: number;
   overrides: Overrides;
@@ -42,16 +38,33 @@ export interface Settings {
   paths: boolean;
 }
 
-/** What became of the field; null where the method has no such number. */
+/** What became of the field; null where the method has no such thing. Norms and differences are of the field scaled to [0, 1]. */
 export interface AfterReport {
+  method: Method;
+  /** What the numbers are about. */
+  settings: Pick<Smoothing, 'metric' | 'energy'> & { isDiffusion: boolean };
+  before: CriticalCounts;
+  after: CriticalCounts;
   lInfinity: number;
   sobolevBefore: number;
   sobolevAfter: number;
-  residual: number | null;
-  route: string | null;
+  /** Constrained vertices without their stars. */
+  features: number | null;
+  /** Null where a field is simplified. */
+  smoothing: SmoothReport | null;
   pairsRemoved: number | null;
   milliseconds: number;
 }
+
+/** The constrained vertices, ascending: those that a rule found, with their values, and all with those next to them. */
+export interface Found {
+  features: Uint32Array<ArrayBuffer>;
+  values: Float64Array<ArrayBuffer>;
+  all: Uint32Array<ArrayBuffer>;
+}
+
+/** Why there is no field on the right though nothing went wrong. */
+export type Unsmoothed = Failure;
 
 /** Steps over the relative δ: row k holds from `delta[k]` up to, not including, `delta[k + 1]`. */
 export interface Steps {
@@ -66,6 +79,8 @@ export interface Hierarchy extends Steps {
   vertices: Uint32Array<ArrayBuffer>;
   kinds: Int8Array<ArrayBuffer>;
   vanishesAt: Float64Array<ArrayBuffer>;
+  /** The field's value at each vertex. */
+  values: Float64Array<ArrayBuffer>;
 }
 
 /** Pairs of critical points, the most persistent one first, and what has no partner. */
@@ -108,6 +123,8 @@ export interface MeshSummary {
   edgeCount: number;
   triangleCount: number;
   topology: MeshTopology;
+  /** The mean length of the triangles' sides, in the units of the mesh. */
+  meanEdge: number;
   warnings: Diagnostic[];
 }
 
@@ -147,7 +164,12 @@ export type Part =
   | { kind: 'arcs'; arcs: Arcs }
   /** `colours`: for each vertex the number of a colour; 255 where it belongs to no basin. */
   | { kind: 'basins'; side: Side; colours: Uint8Array<ArrayBuffer>; count: number }
+  /** Of the methods with constraints. */
+  | { kind: 'constraints'; found: Found }
+  /** After − before: `largest` without its sign, in units of the field; `shades` are 0.5 where nothing has changed. */
+  | { kind: 'difference'; largest: number; shades: Float32Array<ArrayBuffer> }
   | { kind: 'report'; report: AfterReport }
+  | { kind: 'unsmoothed'; reason: Unsmoothed }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };
 
 export type Reply =

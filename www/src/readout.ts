@@ -1,24 +1,17 @@
-/** The facts of the mesh and the numbers of what was last done to the field, as text. */
-import { element, short, whole } from './dom';
+/** The facts of the mesh and, in a line, what was last done to the field; smoothing/report.ts has all of it. */
+import { duration, element, short, whole } from './dom';
 import type { AfterReport, MeshSummary } from './protocol';
 
 const text = (id: string, value: string): void => {
   element(`#${id}`, HTMLElement).textContent = value;
 };
 
-const IDS = ['read-linf', 'read-sobolev', 'read-residual', 'read-pairs', 'read-time', 'read-solver'] as const;
+const IDS = ['read-linf', 'read-sobolev', 'read-time'] as const;
 
-export function showReport(report: AfterReport): void {
-  const { lInfinity, sobolevBefore, sobolevAfter, residual, route, pairsRemoved, milliseconds } = report;
+export function showReport({ lInfinity, sobolevBefore, sobolevAfter, milliseconds }: AfterReport): void {
   text('read-linf', `${short(100 * lInfinity)} % of the range`);
   text('read-sobolev', `${short(sobolevBefore)} → ${short(sobolevAfter)}`);
-  text('read-residual', residual === null ? '–' : short(residual));
-  text('read-pairs', pairsRemoved === null ? '–' : whole(pairsRemoved));
-  text(
-    'read-time',
-    milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`,
-  );
-  text('read-solver', route ?? '–');
+  text('read-time', duration(milliseconds));
 }
 
 export function clearReport(): void {

@@ -4,15 +4,25 @@
  * An update recomputes what depends on a changed setting and sends only that. It has two stages, before and after; a stage
  * that fails sends nothing, so that the page goes on with what it had.
  */
-import { Smoother, writeMesh } from 'morse-smooth';
+import { writeMesh } from 'morse-smooth';
 import type { MeshFile, PersistencePairs, TriMesh } from 'morse-smooth';
 import { colourBasins } from './basins';
-import { displayMesh, placementOf, rangeOf, shadesOf } from './display';
+import { displayMesh, meanEdgeOf, placementOf, rangeOf, shadesOf } from './display';
 import type { Placement } from './display';
 import { Refusal } from './failure';
-import { arcsPart, complexPart, hierarchyPart, keptExtrema, levelLines, linesPart, pairsPart } from './findings';
-import type { AfterReport, FieldEntry, Part, Settings, Side } from './protocol';
-import { hasOverrides, keptPairs } from './reading/pairs';
+import { arcsPart, complexPart, differencePart, hierarchyPart, levelLines, linesPart, pairsPart } from './findings';
+import type { Colouring, FieldEntry, Found, Part, Settings, Side } from './protocol';
+import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
+import { Methods } from './smoothing/methods';
+import {
+  constraintsKey,
+  hasConstraints,
+  smoothingKey,
+  smoothingOf,
+  suffixOf,
+  usesDelta,
+  usesPairs,
+} from './smoothing/settings';
 
 export type Send = (part: Part) => void;
 
@@ -30,10 +40,13 @@ export class Session {
   private readonly entries: FieldEntry[];
   private readonly fields = new Map<string, Float64Array>();
   private readonly triangles: Uint32Array;
-  private smoother: Smoother | null = null;
+  private readonly meanEdge: number;
+  private readonly methods: Methods;
   private smoothed: Float64Array | null = null;
   /** Of the field before. */
   private pairs: PersistencePairs | null = null;
+  /** Of the field before. */
+  private found: Found | null = null;
   /** Where the lines on both sides are. */
   private levels: number[] = [];
   /** The colours of the basins before, by their extrema. */
@@ -43,17 +56,15 @@ export class Session {
   /** Key of the settings behind each thing that the page holds. */
   private readonly sent = new Map<string, string>();
 
-  constructor(
-    file: MeshFile,
-    name: string,
-    private readonly onProgress: (fraction: number) => void,
-  ) {
+  constructor(file: MeshFile, name: string, onProgress: (fraction: number) => void) {
     this.file = file;
     this.mesh = file.mesh;
     this.name = name;
     this.positions = file.mesh.positions();
     this.triangles = file.mesh.triangles();
     this.placement = placementOf(this.positions);
+    this.meanEdge = meanEdgeOf(this.positions, this.triangles);
+    this.methods = new Methods(this.mesh, this.meanEdge, onProgress);
     this.entries = [];
     for (const [label, values] of Object.entries(file.fields))
       this.enter({ key: `file:${label}`, label, origin: 'file' }, values);
@@ -68,9 +79,10 @@ export class Session {
   describe(send: Send, chosen: string): void {
     const { vertexCount, edgeCount, triangleCount, topology } = this.mesh;
     const { format, warnings } = this.file;
+    const { name, meanEdge } = this;
     send({
       kind: 'mesh',
-      summary: { name: this.name, format, vertexCount, edgeCount, triangleCount, topology, warnings },
+      summary: { name, format, vertexCount, edgeCount, triangleCount, topology, meanEdge, warnings },
       mesh: displayMesh(this.mesh, this.positions, this.placement),
     });
     this.sendFields(send, chosen);
@@ -106,7 +118,7 @@ export class Session {
     const { settings, smoothed } = this;
     if (!settings || !smoothed) throw new Refusal('NothingToSave', 'There is no smoothed field yet.');
     const label = this.labelOf(settings.field);
-    const suffix = settings.method === 'simplify' ? 'simplified' : 'smoothed';
+    const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!, [`${label}_${suffix}`]: smoothed };
     const bytes = writeMesh(this.mesh, { format: 'ply', fields: plainNames(fields), binary: true });
     const stem = this.name.replace(/\.[^.]*$/, '');
@@ -119,7 +131,7 @@ export class Session {
   }
 
   free(): void {
-    this.smoother?.free();
+    this.methods.free();
     this.mesh.free();
   }
 
@@ -134,7 +146,7 @@ export class Session {
       keys.push([slot, key]);
       return true;
     };
-    let { pairs, levels, basinColours } = this;
+    let { pairs, found, levels, basinColours } = this;
 
     if (isDue('values', field)) {
       const range = rangeOf(values);
@@ -152,6 +164,10 @@ export class Session {
       pairs = this.mesh.persistence(values);
       parts.push(pairsPart(pairs, values));
     }
+    if (hasConstraints(wanted) && isDue('before.constraints', constraintsKey({ ...wanted, field }))) {
+      found = findConstraints(this.mesh, wanted, values, pairs);
+      parts.push({ kind: 'constraints', found: copied(found) });
+    }
     if (isDue('before.lines', linesKey(field, wanted))) {
       const lines = levelLines(this.mesh, values, pairs, this.placement, wanted);
       levels = lines.levels;
@@ -160,7 +176,7 @@ export class Session {
     const { complex, colouring, persistence } = wanted;
     if (complex && isDue('before.complex', `${field} ${persistence}`))
       parts.push(complexPart(this.mesh, 'before', values, persistence, this.placement));
-    if (colouring !== 'value' && isDue('before.basins', `${field} ${persistence} ${colouring}`)) {
+    if (isByBasins(colouring) && isDue('before.basins', `${field} ${persistence} ${colouring}`)) {
       const { part, byExtremum } = this.basins('before', values, colouring, persistence);
       basinColours = byExtremum;
       parts.push(part);
@@ -169,19 +185,17 @@ export class Session {
     if (wanted.paths && isDue('before.arcs', field)) parts.push(arcsPart(this.mesh, values, this.placement));
 
     announce?.();
-    if (keys.some(([slot]) => slot === 'values')) {
-      this.smoothed = null;
-      for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
-    }
-    Object.assign(this, { pairs, levels, basinColours });
+    if (keys.some(([slot]) => slot === 'values')) this.forgetAfter();
+    Object.assign(this, { pairs, found, levels, basinColours });
     for (const [slot, key] of keys) this.sent.set(slot, key);
     parts.forEach(send);
     // What belongs to the other side is still what it was.
     const last = this.settings ?? wanted;
-    const { metric, epsilon, method, persistence: threshold, overrides } = last;
-    this.settings = { ...wanted, field, metric, epsilon, method };
-    if (method === 'simplify' && wanted.method === 'simplify' && field === last.field)
-      Object.assign(this.settings, { persistence: threshold, overrides });
+    this.settings = { ...wanted, ...smoothingOf(last), field };
+    if (field !== last.field) return;
+    const { persistence: threshold, overrides, delta, link } = last;
+    if (usesPairs(last) && usesPairs(wanted)) Object.assign(this.settings, { persistence: threshold, overrides });
+    if (usesDelta(last) && usesDelta(wanted)) Object.assign(this.settings, { delta, link });
   }
 
   updateAfter(wanted: Settings, send: Send): void {
@@ -191,17 +205,9 @@ export class Session {
     if (key === this.leftOut) return;
     this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
-      const start = performance.now();
-      const { values, ...report } =
-        wanted.method === 'simplify' ? this.simplified(before, wanted) : this.tikhonov(before, wanted);
-      this.smoothed = values;
-      this.sent.set('smoothed', key);
-      // Coloured by the range of the input, so that a loss of amplitude shows.
-      const shades = shadesOf(values, rangeOf(before));
-      send({ kind: 'values', side: 'after', label: this.labelOf(field), range: rangeOf(values), shades });
-      send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
+      if (!this.smooth(before, { ...wanted, field }, key, send)) return;
     }
-    const values = this.smoothed;
+    const values = this.smoothed!;
     const stage = (slot: string, slotKey: string, make: () => Part): void => {
       if (this.sent.get(slot) === slotKey) return;
       send(make());
@@ -214,44 +220,43 @@ export class Session {
     );
     if (complex) stage('after.complex', key, () => complexPart(this.mesh, 'after', values, 0, this.placement));
     // The colours follow those on the left, which depend on the threshold.
-    if (colouring !== 'value')
+    if (isByBasins(colouring))
       stage(
         'after.basins',
         `${key} ${persistence} ${colouring}`,
         () => this.basins('after', values, colouring, 0).part,
       );
+    if (colouring === 'difference') stage('after.difference', key, () => differencePart(before, values));
     this.settings = { ...wanted, field };
   }
 
-  private tikhonov(before: Float64Array, { epsilon, metric }: Settings): Result {
-    // Kept for the mesh: its operators and symbolic factors serve every ε and every field.
-    this.smoother ??= new Smoother(this.mesh, { onProgress: ({ fraction }) => this.onProgress(fraction) });
-    const { values, report } = this.smoother.tikhonov(before, { epsilon, metric });
-    const { lInfinity, sobolevBefore, sobolevAfter, solver } = report;
-    const { relativeResidual: residual, route } = solver;
-    return { values, lInfinity, sobolevBefore, sobolevAfter, residual, route, pairsRemoved: null };
+  /** False where there is nothing to hold the field with: that is said, and the page goes on without a smoothed field. */
+  private smooth(before: Float64Array, wanted: Settings, key: string, send: Send): boolean {
+    const start = performance.now();
+    const found = hasConstraints(wanted) ? this.found : null;
+    try {
+      if (found?.features.length === 0 && wanted.unconstrained === 'error') throw new Unheld();
+      const { values, ...report } = this.methods.run(before, wanted, this.pairs!, found);
+      this.smoothed = values;
+      this.sent.set('smoothed', key);
+      // Coloured by the range of the input, so that a loss of amplitude shows.
+      const shades = shadesOf(values, rangeOf(before));
+      send({ kind: 'values', side: 'after', label: this.labelOf(wanted.field), range: rangeOf(values), shades });
+      send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
+      return true;
+    } catch (error) {
+      const reason = error instanceof Unheld ? nothingHeld(wanted) : partUnheld(error, this.mesh.topology.components);
+      if (!reason) throw error;
+      this.forgetAfter();
+      this.settings = wanted;
+      send({ kind: 'unsmoothed', reason });
+      return false;
+    }
   }
 
-  private simplified(before: Float64Array, settings: Settings): Result {
-    const pairs = this.pairs!;
-    const { persistence, overrides } = settings;
-    const values = this.mesh.simplify(
-      before,
-      hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence },
-    );
-    const [low, high] = rangeOf(before);
-    const range = high > low ? high - low : 1;
-    let largest = 0;
-    for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!));
-    return {
-      values,
-      lInfinity: largest / range,
-      sobolevBefore: this.mesh.smoothness(before).sobolev / range ** 2,
-      sobolevAfter: this.mesh.smoothness(values).sobolev / range ** 2,
-      residual: null,
-      route: null,
-      pairsRemoved: pairs.extrema.length - keptPairs(pairs, persistence * (high - low), overrides).length,
-    };
+  private forgetAfter(): void {
+    this.smoothed = null;
+    for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
   }
 
   private basins(side: Side, values: Float64Array, colouring: 'minima' | 'maxima', persistence: number) {
@@ -284,16 +289,17 @@ export class Session {
   }
 }
 
-/** A field and what became of it; the time is measured around it. */
-type Result = Omit<AfterReport, 'milliseconds'> & { values: Float64Array };
+/** No vertex is constrained at all: found out before the package is asked. */
+class Unheld extends Error {}
 
 const isAfter = (slot: string): boolean => slot === 'smoothed' || slot.startsWith('after.');
 
-/** Everything that the field after depends on, and nothing else. */
-function smoothingKey({ field, method, metric, epsilon, persistence, overrides }: Settings): string {
-  return method === 'simplify'
-    ? `${field} simplify ${persistence} ${JSON.stringify(overrides)}`
-    : `${field} ${metric} ${epsilon}`;
+const isByBasins = (colouring: Colouring): colouring is 'minima' | 'maxima' =>
+  colouring === 'minima' || colouring === 'maxima';
+
+/** What is sent is given away. */
+function copied({ features, values, all }: Found): Found {
+  return { features: features.slice(), values: values.slice(), all: all.slice() };
 }
 
 /** Everything that the levels depend on. */

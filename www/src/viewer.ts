@@ -27,8 +27,10 @@ import { SAMPLES } from './colormap';
 import { CurveLayer } from './curves';
 import { GlyphLayer, glyphRadius } from './glyphs';
 import { Marker } from './marker';
-import type { DisplayMesh } from './protocol';
-import type { Lit } from './reading/reading';
+import type { LitPoints } from './marker';
+import { hitOf, listenToClicks, nearestOf } from './picking';
+import type { DisplayMesh, Found } from './protocol';
+import { RingLayer } from './rings';
 
 const BACKGROUND = 0xffffff;
 const FIELD_OF_VIEW = 30;
@@ -37,6 +39,8 @@ const MARGIN = 1.1;
 /** Radians a key press turns the view by, and the factor it zooms by. */
 const KEY_TURN = Math.PI / 24;
 const KEY_ZOOM = 1.12;
+/** Of rings, by the radius of glyphs. */
+const RING = 1.75;
 
 export interface Layers {
   glyphs: boolean;
@@ -45,6 +49,8 @@ export interface Layers {
   complex: boolean;
   /** Colours by basin instead of by value. */
   basins: boolean;
+  /** Colours by what has changed, where that is known. */
+  difference: boolean;
 }
 
 /** Of the Morse complex: towards minima and towards maxima, near to the colours of those. */
@@ -55,6 +61,8 @@ const DARK = 0x0d1320;
 export class Viewer {
   /** Called after the user has moved this view's camera. */
   onMove: (() => void) | null = null;
+  /** Called with the vertex that the user has clicked on. */
+  onPick: ((vertex: number) => void) | null = null;
 
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -65,32 +73,44 @@ export class Viewer {
   private readonly surface: Mesh<BufferGeometry, MeshLambertMaterial>;
   private readonly plainMaterial: MeshLambertMaterial;
   private readonly basinMaterial: MeshLambertMaterial;
+  private readonly differenceMaterial: MeshLambertMaterial;
   private readonly lines = new CurveLayer({ colour: DARK, width: 1.6, opacity: 0.85 });
   private readonly descending = new CurveLayer({ colour: DESCENDING, width: 2, casing: DARK });
   private readonly ascending = new CurveLayer({ colour: ASCENDING, width: 2, casing: DARK });
   private readonly marker = new Marker();
   private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly glyphs = new GlyphLayer();
-  private readonly texture: DataTexture;
+  private readonly rings = new RingLayer();
+  private readonly texture: DataTexture = textureOf(new Uint8Array(4 * SAMPLES));
   private mesh: DisplayMesh | null = null;
-  private layers: Layers = { glyphs: true, levels: true, edges: false, complex: false, basins: false };
+  private layers: Layers = {
+    glyphs: true,
+    levels: true,
+    edges: false,
+    complex: false,
+    basins: false,
+    difference: false,
+  };
   private critical: { vertices: Uint32Array; kinds: Int8Array } | null = null;
+  private constrained: Found | null = null;
   private frame = 0;
 
   /** Throws where there is no WebGL 2. */
-  constructor(private readonly canvas: HTMLCanvasElement) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    differences: Uint8Array<ArrayBuffer>,
+  ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.background = new Color(BACKGROUND);
-
-    this.texture = new DataTexture(new Uint8Array(4 * SAMPLES), SAMPLES, 1);
-    this.texture.colorSpace = SRGBColorSpace;
-    this.texture.magFilter = this.texture.minFilter = LinearFilter;
 
     // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
     const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 4 } as const;
     this.plainMaterial = new MeshLambertMaterial({ ...pushed, map: this.texture });
     this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
+    const differenceTexture = textureOf(differences);
+    differenceTexture.channel = 1;
+    this.differenceMaterial = new MeshLambertMaterial({ ...pushed, map: differenceTexture });
     this.surface = new Mesh(new BufferGeometry(), this.plainMaterial);
     // Before the lines, some of which leave no trace in depth.
     this.surface.renderOrder = -1;
@@ -99,7 +119,7 @@ export class Viewer {
       new LineBasicMaterial({ color: DARK, transparent: true, opacity: 0.22 }),
     );
     const curves = [this.lines, this.descending, this.ascending].map(({ group }) => group);
-    this.model.add(this.surface, ...curves, this.edges, this.glyphs.group, this.marker.group);
+    this.model.add(this.surface, ...curves, this.edges, this.glyphs.group, this.rings.group, this.marker.group);
     this.model.visible = false;
     this.scene.add(this.model, this.camera, new AmbientLight(0xffffff, 2.3));
     // The light comes from beside the eye: shading shows the shape without hiding the colours.
@@ -116,6 +136,10 @@ export class Viewer {
       this.onMove?.();
     });
     canvas.addEventListener('keydown', (event) => this.onKey(event));
+    listenToClicks(canvas, (clientX, clientY) => {
+      const vertex = this.vertexAt(clientX, clientY);
+      if (vertex !== null) this.onPick?.(vertex);
+    });
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
   }
@@ -128,6 +152,8 @@ export class Viewer {
     geometry.computeVertexNormals();
     this.surface.geometry.dispose();
     this.surface.geometry = geometry;
+    this.constrained = null;
+    this.rings.clear();
     this.edges.geometry.dispose();
     this.edges.geometry = new BufferGeometry();
     this.model.rotation.x = mesh.up === 'z' ? -Math.PI / 2 : 0;
@@ -141,6 +167,7 @@ export class Viewer {
     this.glyphs.clear();
     this.marker.clear();
     this.surface.geometry.deleteAttribute('color');
+    this.surface.geometry.deleteAttribute('uv1');
     const none = new Float32Array(0);
     this.setComplex(none, none);
     this.setLines(none);
@@ -148,15 +175,15 @@ export class Viewer {
 
   /** The colour is looked up for every pixel, not mixed between the vertices' colours. */
   setShades(shades: Float32Array): void {
-    const uv = new Float32Array(2 * shades.length);
-    for (let i = 0; i < shades.length; i++) {
-      // From the middle of the first texel to the middle of the last.
-      uv[2 * i] = (0.5 + (SAMPLES - 1) * shades[i]!) / SAMPLES;
-      uv[2 * i + 1] = 0.5;
-    }
-    this.surface.geometry.setAttribute('uv', new BufferAttribute(uv, 2));
+    this.surface.geometry.setAttribute('uv', along(shades));
     this.model.visible = true;
     this.draw();
+  }
+
+  /** The same for what has changed, with colours of its own. */
+  setDifference(shades: Float32Array): void {
+    this.surface.geometry.setAttribute('uv1', along(shades));
+    this.applyLayers();
   }
 
   /** `banded`: colours with steps between them, which must not be blurred. */
@@ -184,13 +211,16 @@ export class Viewer {
     this.applyLayers();
   }
 
-  /** `path`: lines between the two, where they are known. */
-  setLit(pair: Lit | null, path: Float32Array = new Float32Array(0)): void {
-    if (pair && this.mesh && this.model.visible) {
-      const normals = this.surface.geometry.getAttribute('normal').array as Float32Array;
-      this.marker.set(pair, this.mesh, normals, path);
-    } else this.marker.clear();
+  /** `path`: lines between the points, where they are known. */
+  setLit(points: LitPoints | null, path: Float32Array = new Float32Array(0)): void {
+    if (points && this.mesh && this.model.visible) this.marker.set(points, this.mesh, this.normals, path);
+    else this.marker.clear();
     this.draw();
+  }
+
+  setConstrained(found: Found): void {
+    this.constrained = found;
+    this.drawRings();
   }
 
   setCritical(vertices: Uint32Array, kinds: Int8Array): void {
@@ -246,13 +276,15 @@ export class Viewer {
   }
 
   private applyLayers(criticalChanged = false): void {
-    const { glyphs, levels, edges, complex, basins } = this.layers;
+    const { glyphs, levels, edges, complex, basins, difference } = this.layers;
     this.lines.show(levels);
     this.descending.show(complex);
     this.ascending.show(complex);
     // Until the colours have come, values are shown.
-    const byBasin = basins && this.surface.geometry.hasAttribute('color');
-    this.surface.material = byBasin ? this.basinMaterial : this.plainMaterial;
+    const has = (name: string): boolean => this.surface.geometry.hasAttribute(name);
+    if (basins && has('color')) this.surface.material = this.basinMaterial;
+    else if (difference && has('uv1')) this.surface.material = this.differenceMaterial;
+    else this.surface.material = this.plainMaterial;
     this.edges.visible = edges;
     // Edges of a large mesh are only built when somebody wants to see them.
     if (edges && this.mesh && !this.edges.geometry.hasAttribute('position')) {
@@ -261,10 +293,43 @@ export class Viewer {
     this.glyphs.group.visible = glyphs;
     if (criticalChanged && this.critical && this.mesh) {
       const { vertices, kinds } = this.critical;
-      const normals = this.surface.geometry.getAttribute('normal').array as Float32Array;
-      this.glyphs.set(vertices, kinds, this.mesh.positions, normals, glyphRadius(this.mesh.area, vertices.length));
+      this.glyphs.set(vertices, kinds, this.mesh.positions, this.normals, this.glyphSize);
+      this.drawRings();
     }
     this.draw();
+  }
+
+  private drawRings(): void {
+    if (this.constrained && this.mesh)
+      this.rings.set(this.constrained, this.mesh.positions, this.normals, this.ringSize);
+    this.draw();
+  }
+
+  private get normals(): Float32Array {
+    return this.surface.geometry.getAttribute('normal').array as Float32Array;
+  }
+
+  private get glyphSize(): number {
+    return glyphRadius(this.mesh!.area, this.critical?.vertices.length ?? 0);
+  }
+
+  /** Around glyphs, and no smaller where the glyphs are many and the constraints few. */
+  private get ringSize(): number {
+    const count = this.constrained?.features.length ?? 0;
+    return RING * Math.max(this.glyphSize, Math.min(0.014, glyphRadius(this.mesh!.area, 4 * count)));
+  }
+
+  /** The constrained vertex or the critical point whose sign is there, else the nearest corner of the triangle. */
+  private vertexAt(clientX: number, clientY: number): number | null {
+    const { mesh, model, surface } = this;
+    if (!mesh || !model.visible) return null;
+    const hit = hitOf(surface, model, this.camera, this.canvas, clientX, clientY);
+    if (!hit) return null;
+    const nearest = (vertices: Iterable<number>, reach: number): number | null =>
+      nearestOf(vertices, mesh.positions, hit.place, reach);
+    const marked = nearest(this.constrained?.features ?? [], this.ringSize);
+    const critical = this.layers.glyphs ? nearest(this.critical?.vertices ?? [], this.glyphSize) : null;
+    return marked ?? critical ?? nearest(hit.corners, Infinity);
   }
 
   private resize(): void {
@@ -307,6 +372,25 @@ export class Viewer {
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
   }
+}
+
+/** Texture coordinates that look shades up in a colour map. */
+function along(shades: Float32Array): BufferAttribute {
+  const uv = new Float32Array(2 * shades.length);
+  for (let i = 0; i < shades.length; i++) {
+    // From the middle of the first texel to the middle of the last.
+    uv[2 * i] = (0.5 + (SAMPLES - 1) * shades[i]!) / SAMPLES;
+    uv[2 * i + 1] = 0.5;
+  }
+  return new BufferAttribute(uv, 2);
+}
+
+function textureOf(bytes: Uint8Array<ArrayBuffer>): DataTexture {
+  const texture = new DataTexture(bytes, SAMPLES, 1);
+  texture.colorSpace = SRGBColorSpace;
+  texture.magFilter = texture.minFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 /** Joins the cameras of two views. */

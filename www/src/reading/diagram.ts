@@ -127,9 +127,14 @@ export class Diagram {
 
   /** Where they are born; they never die. */
   private drawEssential(): void {
-    const { essentialKinds, essentialValues } = this.selection.pairs!;
+    const { essential, essentialKinds, essentialValues } = this.selection.pairs!;
+    const { chosen } = this.selection;
     essentialValues.forEach((value, k) =>
-      this.dot(this.x(value), this.y(this.edge), essentialKinds[k]!, { filled: true, ring: false, halo: false }),
+      this.dot(this.x(value), this.y(this.edge), essentialKinds[k]!, {
+        filled: chosen?.has(essential[k]!) ?? true,
+        ring: false,
+        halo: false,
+      }),
     );
   }
 

@@ -21,6 +21,8 @@ export interface ReadingEvents {
   threshold(value: number): void;
   /** Some pair was decided about, or all decisions were taken back. */
   overrides(overrides: Overrides): void;
+  /** A pair was clicked while pairs are judged by constrained vertices. */
+  toggle(ends: number[]): void;
   lit(pair: Lit | null): void;
 }
 
@@ -46,6 +48,10 @@ export class Reading {
       threshold: (value) => events.threshold(value),
       point: (pair) => this.point(pair),
       toggle: (pair) => {
+        if (this.selection.chosen) {
+          const { extrema, saddles } = this.selection.pairs!;
+          return events.toggle([extrema[pair]!, saddles[pair]!]);
+        }
         this.selection.toggle(pair);
         this.decided();
       },
@@ -80,6 +86,13 @@ export class Reading {
     this.describeCounts(delta);
     this.selection.threshold = threshold;
     this.selection.overrides = overrides;
+    this.redraw();
+  }
+
+  /** Null where the threshold and decisions about pairs are what counts. */
+  setChosen(vertices: ReadonlySet<number> | null): void {
+    if (!vertices && !this.selection.chosen) return;
+    this.selection.chosen = vertices;
     this.redraw();
   }
 
@@ -153,6 +166,12 @@ export class Reading {
       const { minima, maxima, dropped } = selection.counts();
       const hidden = pairs.extrema.length - MOST;
       const more = hidden > 0 ? `; the ${whole(hidden)} least persistent pairs are not drawn` : '';
+      if (selection.chosen) {
+        const { kept } = selection.counts();
+        return this.sayPair(
+          `Both ends of ${whole(kept)} of ${plural(pairs.extrema.length, 'pair', 'pairs')} constrained`,
+        );
+      }
       this.sayPair(
         `Keeps ${plural(minima, 'minimum', 'minima')} and ${plural(maxima, 'maximum', 'maxima')}, drops ${plural(dropped, 'pair', 'pairs')}${more}`,
       );
@@ -161,11 +180,12 @@ export class Reading {
     const pair = this.pointed;
     const isMinimum = pairs.kinds[pair]! < 0;
     const [first, second] = isMinimum ? [pairs.birth, pairs.death] : [pairs.death, pairs.birth];
+    const [inside, outside] = selection.chosen ? ['constrained', 'not constrained'] : ['kept', 'dropped'];
     const share = selection.width > 0 ? pairs.persistence[pair]! / selection.width : 0;
     this.sayPair(
       `${isMinimum ? 'Minimum' : 'Maximum'} ${pairs.extrema[pair]} (${short(first[pair]!)}), ` +
         `saddle ${pairs.saddles[pair]} (${short(second[pair]!)}): ` +
-        `${short(100 * share)} %, ${selection.isKept(pair) ? 'kept' : 'dropped'}` +
+        `${short(100 * share)} %, ${selection.isKept(pair) ? inside : outside}` +
         (selection.isDecided(pair) ? ' by you' : ''),
     );
   }

@@ -9,6 +9,7 @@ export class Selection {
   private share = 0;
   private decided = new Map<number, 'kept' | 'dropped'>();
   private mask = new Uint8Array(0);
+  private set: ReadonlySet<number> | null = null;
 
   setPairs(pairs: Pairs, range: [number, number]): void {
     this.pairs = pairs;
@@ -46,12 +47,22 @@ export class Selection {
     this.renew();
   }
 
+  /** The vertices that are constrained, where that is what pairs are judged by: both ends are in or the pair is out. */
+  get chosen(): ReadonlySet<number> | null {
+    return this.set;
+  }
+
+  set chosen(vertices: ReadonlySet<number> | null) {
+    this.set = vertices;
+    this.renew();
+  }
+
   isKept(pair: number): boolean {
     return this.mask[pair] === 1;
   }
 
   isDecided(pair: number): boolean {
-    return this.decided.has(this.pairs!.extrema[pair]!);
+    return !this.set && this.decided.has(this.pairs!.extrema[pair]!);
   }
 
   /** A decision that says what the threshold says anyway is none. */
@@ -86,7 +97,13 @@ export class Selection {
 
   private renew(): void {
     if (!this.pairs) return;
-    this.mask = new Uint8Array(this.pairs.extrema.length);
+    const { set } = this;
+    const { extrema, saddles } = this.pairs;
+    this.mask = new Uint8Array(extrema.length);
+    if (set) {
+      this.mask.forEach((_, k) => (this.mask[k] = set.has(extrema[k]!) && set.has(saddles[k]!) ? 1 : 0));
+      return;
+    }
     for (const pair of keptPairs(this.pairs, this.share * this.width, this.overrides)) this.mask[pair] = 1;
   }
 }

@@ -1,0 +1,91 @@
+/**
+ * Constrained vertices: a ring around each, dark within white, so that it stands out from any colour of the surface and is
+ * none of the solids that mark critical points. The vertices next to them are small dark squares, where there are not too many.
+ */
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  InstancedMesh,
+  Matrix4,
+  MeshBasicMaterial,
+  Points,
+  PointsMaterial,
+  Quaternion,
+  RingGeometry,
+  TorusGeometry,
+  Vector3,
+} from 'three';
+import type { Found } from './protocol';
+
+const DARK = 0x10151f;
+const LIGHT = 0xffffff;
+/** More rings are flat, and more stars are left out. */
+const CROWD = 400;
+const MOST_STARS = 6000;
+
+export class RingLayer {
+  readonly group = new Group();
+  private readonly dark = new MeshBasicMaterial({ color: DARK, side: DoubleSide });
+  private readonly light = new MeshBasicMaterial({ color: LIGHT, side: DoubleSide });
+  private readonly squares = new PointsMaterial({
+    color: DARK,
+    size: 3.5,
+    sizeAttenuation: false,
+    transparent: true,
+    opacity: 0.55,
+  });
+  private readonly fine = { inner: torus(0.15, 6, 32), outer: torus(0.25, 6, 32) };
+  private readonly flat = { inner: new RingGeometry(0.84, 1.16, 12), outer: new RingGeometry(0.7, 1.3, 12) };
+
+  clear(): void {
+    for (const child of [...this.group.children]) {
+      if (child instanceof InstancedMesh) child.dispose();
+      if (child instanceof Points) (child.geometry as BufferGeometry).dispose();
+    }
+    this.group.clear();
+  }
+
+  /** `radius`: of the rings. */
+  set({ features, all }: Found, positions: Float32Array, normals: Float32Array, radius: number): void {
+    this.clear();
+    if (features.length === 0) return;
+    const { inner, outer } = features.length > CROWD ? this.flat : this.fine;
+    const rings = [new InstancedMesh(outer, this.light, features.length), new InstancedMesh(inner, this.dark, features.length)]; // prettier-ignore
+    const axis = new Vector3(0, 0, 1);
+    const normal = new Vector3();
+    const place = new Vector3();
+    const turn = new Quaternion();
+    const matrix = new Matrix4();
+    features.forEach((vertex, k) => {
+      normal.fromArray(normals, 3 * vertex);
+      turn.setFromUnitVectors(axis, normal.lengthSq() > 0 ? normal : axis);
+      // The dark ring lies a little higher, so that it is not inside the white one.
+      rings.forEach((ring, height) => {
+        place.fromArray(positions, 3 * vertex).addScaledVector(normal, (0.1 + 0.2 * height) * radius);
+        ring.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(radius)));
+      });
+    });
+    for (const ring of rings) ring.frustumCulled = false;
+    this.group.add(...rings);
+    if (all.length > features.length && all.length <= MOST_STARS) this.group.add(this.starsOf(all, positions, normals));
+  }
+
+  private starsOf(all: Uint32Array, positions: Float32Array, normals: Float32Array): Points {
+    const places = new Float32Array(3 * all.length);
+    all.forEach((vertex, k) => {
+      for (let axis = 0; axis < 3; axis++)
+        places[3 * k + axis] = positions[3 * vertex + axis]! + 0.002 * normals[3 * vertex + axis]!;
+    });
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(places, 3));
+    const points = new Points(geometry, this.squares);
+    points.frustumCulled = false;
+    return points;
+  }
+}
+
+function torus(thickness: number, around: number, along: number): TorusGeometry {
+  return new TorusGeometry(1, thickness, around, along);
+}

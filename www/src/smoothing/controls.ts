@@ -1,0 +1,222 @@
+/** The part of the form that chooses a method: shows only what that method takes. */
+import { clamp, element, input, select, short } from '../dom';
+import { byElements, INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
+import type { Method, Rule, Smoothing } from './settings';
+
+const EPSILON_RANGE = [1e-6, 1e4] as const;
+const WAVELENGTH_RANGE = [0.5, 1e4] as const;
+const CLUSTERS_RANGE = [1, 1e5] as const;
+const LOW_PASS_RANGES = { iterations: [0, 1e4], lambda: [0.01, 1], mu: [-1, 0] } as const;
+const BILATERAL_RANGES = {
+  iterations: [0, 1000],
+  radius: [0.1, 20],
+  sigmaDistance: [0.01, 100],
+  sigmaValue: [1e-4, 10],
+} as const;
+
+/** All but what is picked outside the form. */
+export type SmoothingChoices = Omit<Smoothing, 'picked'>;
+
+/** One number with its box, its range and what stands in for nonsense. */
+interface Quantity {
+  box: HTMLInputElement;
+  range: readonly [number, number];
+  fallback: number;
+  isWhole?: boolean;
+  /** What the box shows for 1. */
+  factor?: number;
+}
+
+export class SmoothingControls {
+  private readonly method = select('method');
+  private readonly epsilon = input('epsilon');
+  private readonly epsilonNumber = input('epsilon-number');
+  private readonly metric = select('metric');
+  private readonly energy = select('energy');
+  private readonly weights = select('weights');
+  private readonly bounds = input('bounds');
+  private readonly filter = select('filter');
+  private readonly rule = select('rule');
+  private readonly stars = input('stars');
+  private readonly unconstrained = select('unconstrained');
+  private readonly units = element('#bilateral-units', HTMLElement);
+  private readonly clusters: Quantity = {
+    box: input('clusters'),
+    range: CLUSTERS_RANGE,
+    fallback: INITIAL_SMOOTHING.clusters,
+    isWhole: true,
+  };
+  private readonly lowPass = quantities(
+    { iterations: input('low-pass-iterations'), lambda: input('lambda'), mu: input('mu') },
+    LOW_PASS_RANGES,
+    { ...INITIAL_SMOOTHING.lowPass, mu: TAUBIN_MU },
+  );
+  private readonly bilateral = quantities(
+    {
+      iterations: input('bilateral-iterations'),
+      radius: input('bilateral-radius'),
+      sigmaDistance: input('sigma-distance'),
+      sigmaValue: input('sigma-value'),
+    },
+    BILATERAL_RANGES,
+    INITIAL_SMOOTHING.bilateral,
+  );
+  private readonly wavelength: Quantity = {
+    box: input('wavelength'),
+    range: WAVELENGTH_RANGE,
+    fallback: INITIAL_SMOOTHING.wavelength,
+  };
+  private readonly wavelengthUnits = element('#wavelength-units', HTMLElement);
+  /** Of the mesh and of the field: what the bilateral filter's multiples are of. */
+  private meanEdge = 0;
+  private width = 0;
+
+  /** `changed` is called for whatever has to be computed. */
+  constructor(private readonly changed: () => void) {
+    this.bilateral.sigmaValue.factor = 100;
+    writeQuantity(this.lowPass.mu, TAUBIN_MU);
+    this.wire();
+  }
+
+  read(): SmoothingChoices {
+    const lowPass = readAll(this.lowPass);
+    return {
+      method: this.method.value as Method,
+      weights: this.weights.value as Smoothing['weights'],
+      bounds: this.bounds.checked,
+      epsilon: Number(this.epsilonNumber.value),
+      metric: this.metric.value as Smoothing['metric'],
+      wavelength: readQuantity(this.wavelength),
+      energy: this.energy.value as Smoothing['energy'],
+      lowPass: this.filter.value === 'diffusion' ? { ...lowPass, mu: 0 } : lowPass,
+      bilateral: readAll(this.bilateral),
+      rule: this.rule.value as Rule,
+      clusters: readQuantity(this.clusters),
+      stars: this.stars.checked,
+      unconstrained: this.unconstrained.value as Smoothing['unconstrained'],
+    };
+  }
+
+  write(choices: SmoothingChoices): void {
+    const { method, weights, bounds, epsilon, metric, energy, lowPass, bilateral } = choices;
+    this.method.value = method;
+    this.weights.value = weights;
+    this.bounds.checked = bounds;
+    this.metric.value = metric;
+    this.energy.value = energy;
+    this.rule.value = choices.rule;
+    this.stars.checked = choices.stars;
+    this.unconstrained.value = choices.unconstrained;
+    this.writeEpsilon(epsilon);
+    this.filter.value = lowPass.mu === 0 ? 'diffusion' : 'taubin';
+    // The box keeps its number while there is no second step.
+    writeAll(this.lowPass, { ...lowPass, mu: lowPass.mu === 0 ? readQuantity(this.lowPass.mu) : lowPass.mu });
+    writeAll(this.bilateral, bilateral);
+    writeQuantity(this.clusters, choices.clusters);
+    writeQuantity(this.wavelength, choices.wavelength);
+    this.show();
+  }
+
+  writeRule(rule: Rule): void {
+    this.rule.value = rule;
+    this.show();
+  }
+
+  /** In the units of the mesh and those of the field. */
+  setUnits({ meanEdge = this.meanEdge, width = this.width }: { meanEdge?: number; width?: number }): void {
+    Object.assign(this, { meanEdge, width });
+    this.show();
+  }
+
+  private writeEpsilon(value: number): void {
+    const epsilon = clamp(value, EPSILON_RANGE);
+    this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
+    this.epsilon.value = String(Math.log10(epsilon));
+    this.epsilon.setAttribute('aria-valuetext', this.epsilonNumber.value);
+  }
+
+  /** Only what the method takes. */
+  private show(): void {
+    const { method, metric } = this.read();
+    for (const [key, value] of [
+      ['forMethod', byElements({ method, metric }) ? 'finiteElements' : method],
+      ['forFilter', this.filter.value],
+      ['forRule', this.rule.value],
+    ] as const) {
+      const name = key.replace(/[A-Z]/, (letter) => `-${letter.toLowerCase()}`);
+      for (const part of document.querySelectorAll<HTMLElement>(`[data-${name}]`))
+        part.hidden = !part.dataset[key]!.split(' ').includes(value);
+    }
+    const isSimplify = method === 'simplify';
+    element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
+    this.wavelengthUnits.textContent = `${short(readQuantity(this.wavelength) * this.meanEdge)} in units of the mesh. Waves of this length keep half of their amplitude.`;
+    const { radius, sigmaDistance, sigmaValue } = readAll(this.bilateral);
+    this.units.textContent =
+      `Radius ${short(radius * this.meanEdge)} and σ ${short(sigmaDistance * this.meanEdge)} in units of the mesh, ` +
+      `σ ${short(sigmaValue * this.width)} in those of the field.`;
+  }
+
+  private wire(): void {
+    const { changed } = this;
+    // Sliders report while they move; the client drops what a newer position makes stale.
+    this.epsilon.addEventListener('input', () => {
+      this.writeEpsilon(Number((10 ** Number(this.epsilon.value)).toPrecision(3)));
+      changed();
+    });
+    this.epsilonNumber.addEventListener('change', () => {
+      const { valueAsNumber } = this.epsilonNumber;
+      this.writeEpsilon(Number.isFinite(valueAsNumber) ? valueAsNumber : INITIAL_SMOOTHING.epsilon);
+      changed();
+    });
+    for (const quantity of [
+      this.clusters,
+      this.wavelength,
+      ...Object.values(this.lowPass),
+      ...Object.values(this.bilateral),
+    ]) {
+      quantity.box.addEventListener('change', () => {
+        writeQuantity(quantity, readQuantity(quantity));
+        this.show();
+        changed();
+      });
+    }
+    const { method, metric, energy, weights, bounds, filter, rule, stars, unconstrained } = this;
+    for (const choice of [method, metric, energy, weights, bounds, filter, rule, stars, unconstrained]) {
+      choice.addEventListener('change', () => {
+        this.show();
+        changed();
+      });
+    }
+  }
+}
+
+function quantities<Name extends string>(
+  boxes: Record<Name, HTMLInputElement>,
+  ranges: Record<Name, readonly [number, number]>,
+  fallbacks: Record<Name, number>,
+): Record<Name, Quantity> {
+  const names = Object.keys(boxes) as Name[];
+  const made = names.map((name): [Name, Quantity] => [
+    name,
+    { box: boxes[name], range: ranges[name], fallback: fallbacks[name], isWhole: name === 'iterations' },
+  ]);
+  return Object.fromEntries(made) as Record<Name, Quantity>;
+}
+
+function readQuantity({ box, range, fallback, isWhole = false, factor = 1 }: Quantity): number {
+  const value = Number.isFinite(box.valueAsNumber) ? box.valueAsNumber / factor : fallback;
+  return clamp(isWhole ? Math.round(value) : value, range);
+}
+
+function writeQuantity({ box, range, factor = 1 }: Quantity, value: number): void {
+  box.value = String(Number((factor * clamp(value, range)).toPrecision(6)));
+}
+
+function readAll<Name extends string>(all: Record<Name, Quantity>): Record<Name, number> {
+  const names = Object.keys(all) as Name[];
+  return Object.fromEntries(names.map((name) => [name, readQuantity(all[name])])) as Record<Name, number>;
+}
+
+function writeAll<Name extends string>(all: Record<Name, Quantity>, values: Record<Name, number>): void {
+  for (const name of Object.keys(all) as Name[]) writeQuantity(all[name], values[name]);
+}

@@ -1,0 +1,123 @@
+/** The worker's side of the methods: runs the chosen one and reports on it. */
+import { Smoother } from 'morse-smooth';
+import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
+import { rangeOf } from '../display';
+import { keptExtrema, thresholdOf } from '../findings';
+import type { AfterReport, Found, Settings } from '../protocol';
+import { hasOverrides, keptPairs } from '../reading/pairs';
+import { byElements } from './settings';
+
+/** A field and what became of it; the time is measured around it. */
+export type Result = Omit<AfterReport, 'milliseconds'> & { values: Float64Array };
+
+export class Methods {
+  private smoother: Smoother | null = null;
+  /** What the smoother was made for. */
+  private made = '';
+
+  constructor(
+    private readonly mesh: TriMesh,
+    /** The mean length of the triangles' sides. */
+    private readonly meanEdge: number,
+    private readonly onProgress: (fraction: number) => void,
+  ) {}
+
+  free(): void {
+    this.smoother?.free();
+    this.smoother = null;
+  }
+
+  /** `found`: of the methods with constraints. */
+  run(values: Float64Array, settings: Settings, pairs: PersistencePairs, found: Found | null): Result {
+    if (settings.method === 'simplify') return this.simplified(values, settings, pairs);
+    const { values: smoothed, report } = this.smoothed(values, settings, found);
+    const { method, ...others } = report;
+    const { lInfinity, sobolevBefore, sobolevAfter, before, after } = others;
+    return {
+      values: smoothed,
+      method,
+      settings: nameOf(settings),
+      before,
+      after,
+      lInfinity,
+      sobolevBefore,
+      sobolevAfter,
+      features: found?.features.length ?? null,
+      smoothing: report,
+      pairsRemoved: null,
+    };
+  }
+
+  private smoothed(values: Float64Array, settings: Settings, found: Found | null): Smoothed {
+    const smoother = this.smootherFor(settings);
+    const { epsilon, metric, wavelength, energy, stars, unconstrained } = settings;
+    const constraints = { from: 'vertices', vertices: found?.features ?? [], stars } as const;
+    switch (settings.method) {
+      case 'interpolate':
+        return smoother.interpolate(values, { constraints, energy, unconstrained });
+      case 'leastSquares':
+        return smoother.leastSquares(values, { constraints, epsilon, unconstrained });
+      case 'lowPass':
+        return smoother.lowPass(values, settings.lowPass);
+      case 'bilateral': {
+        const { iterations, radius, sigmaDistance, sigmaValue } = settings.bilateral;
+        const [low, high] = rangeOf(values);
+        return smoother.bilateral(values, {
+          iterations,
+          radius: radius * this.meanEdge,
+          sigmaDistance: sigmaDistance * this.meanEdge,
+          // A constant field has no range, and stays as it is whatever this is.
+          sigmaValue: sigmaValue * (high > low ? high - low : 1),
+        });
+      }
+      default:
+        return metric === 'finiteElements'
+          ? smoother.tikhonov(values, { cutoffWavelength: wavelength * this.meanEdge })
+          : smoother.tikhonov(values, { epsilon, metric });
+    }
+  }
+
+  /** Its operators and symbolic factors serve every method, ε and field, as long as the operator is the same. */
+  private smootherFor(settings: Settings): Smoother {
+    const { weights, bounds } = settings;
+    const operator = byElements(settings) ? ({ operator: 'fem' } as const) : { weights };
+    const wanted = JSON.stringify([operator, bounds]);
+    if (!this.smoother || this.made !== wanted) {
+      this.free();
+      const onProgress = ({ fraction }: { fraction: number }): void => this.onProgress(fraction);
+      this.smoother = new Smoother(this.mesh, { ...operator, bounds, onProgress });
+      this.made = wanted;
+    }
+    return this.smoother;
+  }
+
+  private simplified(before: Float64Array, settings: Settings, pairs: PersistencePairs): Result {
+    const { persistence, overrides } = settings;
+    const values = this.mesh.simplify(
+      before,
+      hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence },
+    );
+    const [low, high] = rangeOf(before);
+    const range = high > low ? high - low : 1;
+    let largest = 0;
+    for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!));
+    return {
+      values,
+      method: 'simplify',
+      settings: nameOf(settings),
+      before: this.mesh.criticalPoints(before).counts,
+      after: this.mesh.criticalPoints(values).counts,
+      lInfinity: largest / range,
+      sobolevBefore: this.mesh.smoothness(before).sobolev / range ** 2,
+      sobolevAfter: this.mesh.smoothness(values).sobolev / range ** 2,
+      features: null,
+      smoothing: null,
+      pairsRemoved: pairs.extrema.length - keptPairs(pairs, thresholdOf(before, settings), overrides).length,
+    };
+  }
+}
+
+/** What the report needs to know of how the field was made. */
+function nameOf({ metric, energy, lowPass }: Settings): AfterReport['settings'] {
+  return { metric, energy, isDiffusion: lowPass.mu === 0 };
+}
