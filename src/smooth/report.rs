@@ -154,7 +154,7 @@ pub(super) fn measure(
         constraint_count: facts.constraints.map_or(0, |set| set.vertices.len()),
         before: before.counts,
         after: after.counts,
-        l_infinity: difference.iter().fold(0.0, |max, d| if d.abs() > max { d.abs() } else { max }),
+        l_infinity: largest(&difference),
         l2,
         metric_norm: facts.metric_norm.unwrap_or(l2),
         laplacian_norm: energies_after.laplacian_norm,
@@ -167,6 +167,14 @@ pub(super) fn measure(
         maximum_principle: facts.maximum_principle,
         solver: facts.solver,
     })
+}
+
+fn largest(values: &[f64]) -> f64 {
+    let mut largest = 0.0_f64;
+    for v in values {
+        largest = if v.abs() > largest { v.abs() } else { largest };
+    }
+    largest
 }
 
 /// What became of critical points under constraints.

@@ -231,8 +231,11 @@ impl<T: Scalar> CholeskyFactor<T> {
 
 /// What brings numbers to about 1 and back: single precision has a small range.
 fn scales<T: Scalar>(b: &[T::Wide]) -> [f64; 2] {
+    if !T::SINGLE {
+        return [1.0, 1.0];
+    }
     let largest = b.iter().fold(0.0, |largest: f64, &value| largest.max(T::magnitude(value)));
-    if T::SINGLE && largest >= f64::MIN_POSITIVE { [largest.recip(), largest] } else { [1.0, 1.0] }
+    if largest >= f64::MIN_POSITIVE { [largest.recip(), largest] } else { [1.0, 1.0] }
 }
 
 fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {

@@ -68,11 +68,15 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
     let residual = |c: usize, z: &[f64]| {
         let (re, im) = z.split_at(n);
         let f: &[f64] = &task.loads[c].field;
-        let real = transposed_product(laplacian, re);
-        let imaginary = transposed_product(laplacian, im);
-        let real = (0..n).map(|i| shift[i] * (f[i] + im[i]) - real[i]);
-        let imaginary = (0..n).map(|i| -(imaginary[i] + shift[i] * re[i]));
-        real.chain(imaginary).collect()
+        let (real, imaginary) = (transposed_product(laplacian, re), transposed_product(laplacian, im));
+        let mut rest = Vec::with_capacity(2 * n);
+        for i in 0..n {
+            rest.push(shift[i] * (f[i] + im[i]) - real[i]);
+        }
+        for i in 0..n {
+            rest.push(-(imaginary[i] + shift[i] * re[i]));
+        }
+        rest
     };
     let mut iterates = refine(Refinement {
         count: task.loads.len(),
@@ -82,13 +86,19 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
         inverse_norm: shift.iter().copied().reduce(f64::min).map(f64::recip),
         residual: &residual,
         solve: &mut |residuals, _| {
-            let pairs = |r: &[f64]| -> Vec<Complex<f64>> { (0..n).map(|i| Complex::new(r[i], r[n + i])).collect() };
-            let b: Vec<Complex<f64>> = residuals.chunks_exact(2 * n).flat_map(pairs).collect();
+            let mut b = Vec::with_capacity(residuals.len() / 2);
+            for r in residuals.chunks_exact(2 * n) {
+                for i in 0..n {
+                    b.push(Complex::new(r[i], r[n + i]));
+                }
+            }
             let solved = factor.solve(&b)?;
-            let mut planar = Vec::with_capacity(residuals.len());
-            for z in solved.chunks_exact(n) {
-                planar.extend(z.iter().map(|z| z.re));
-                planar.extend(z.iter().map(|z| z.im));
+            let mut planar = vec![0.0; residuals.len()];
+            for (c, z) in solved.chunks_exact(n).enumerate() {
+                for i in 0..n {
+                    planar[2 * c * n + i] = z[i].re;
+                    planar[(2 * c + 1) * n + i] = z[i].im;
+                }
             }
             Ok(planar)
         },

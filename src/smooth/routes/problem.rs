@@ -65,7 +65,11 @@ pub(in crate::smooth) struct Load {
 }
 
 pub(in crate::smooth) fn difference(x: &[f64], f: &[f64]) -> Vec<f64> {
-    x.iter().zip(f).map(|(x, f)| x - f).collect()
+    let mut difference = Vec::with_capacity(x.len());
+    for i in 0..x.len() {
+        difference.push(x[i] - f[i]);
+    }
+    difference
 }
 
 impl Problem<'_> {
