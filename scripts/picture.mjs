@@ -1,5 +1,6 @@
-// Takes the README's pictures from the real page: docs/picture.webp, the opening example before and after smoothing, and
-// docs/reading.webp, the Earth's geoid simplified, with its basins, its Morse complex and the plots.
+// Takes the README's pictures from the real page: docs/picture.webp, the opening example before and after smoothing,
+// docs/reading.webp, the Earth's geoid simplified, with its basins, its Morse complex and the plots, and docs/constraints.webp, a
+// protein's potential interpolated at its persistent critical points, with the report.
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { NO_BROWSER, findBrowser } from './lib/browser.mjs';
 import { Problem, main, say } from './lib/log.mjs';
@@ -43,6 +44,17 @@ await main(async () => {
     await page.page.setViewportSize(READING);
     await page.look('after');
     await save(page, 'reading', await page.page.locator('main').screenshot());
+
+    await page.at('colouring').selectOption('value');
+    await page.at('show-complex').uncheck();
+    await page.after(() => page.at('example').selectOption('lysozyme'));
+    await page.after(() => page.at('method').selectOption('interpolate'));
+    await page.after(() => page.at('weights').selectOption('intrinsicDelaunay'));
+    await page.at('show-levels').check();
+    await page.at('show-glyphs').check();
+    await page.at('tab-report').click();
+    await page.look('after');
+    await save(page, 'constraints', await page.page.locator('main').screenshot());
   } finally {
     await driver.close();
   }

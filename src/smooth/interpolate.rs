@@ -2,9 +2,10 @@
 
 use super::channels::{Channel, Channels};
 use super::constraints::{ConstraintSet, Constraints, LeftOut, level_constant_components};
+use super::maximum_principle::Certifier;
 use super::report::{Facts, Smoothed, SolverReport, measure};
 use super::system::{ReducedSystem, Solved};
-use super::{Energy, Phase, Progress, Smoother, bounds, maximum_principle};
+use super::{Energy, Phase, Progress, Smoother, bounds};
 use crate::error::Result;
 
 /// Options of [`Smoother::interpolate`].
@@ -46,9 +47,10 @@ fn solve(
     let reach = smoother.reach();
     let mut changed = system.free().to_vec();
     changed.extend(reach.active().iter().filter(|&&v| left_out.moves(reach, v)));
-    let is_harmonic = system.energy() == Energy::Harmonic;
     let mut interleaved = channels.to_interleaved();
     let mut reports = Vec::with_capacity(channels.count());
+    let free = system.free().to_vec();
+    let mut certifier = None;
     let mut factor = None;
     for (first, group) in channels.groups(&smoother.mesh) {
         let manner = smoother.manner(first == 0);
@@ -58,6 +60,9 @@ fn solve(
             factor = perturbation_factor(smoother, system, set, &solved);
         }
         progress(Phase::Report, 0.95);
+        if system.energy() == Energy::Harmonic && certifier.is_none() {
+            certifier = Some(Certifier::new(smoother.mesh.connectivity(), &smoother.laplacian, &free));
+        }
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(&solved.solutions)) {
             let mut x = channel.normalized.clone();
             left_out.write(reach, &mut x);
@@ -66,9 +71,6 @@ fn solve(
             }
             let mut values = channel.restored(&x, &changed);
             level_constant_components(reach, set, channel, &mut x, &mut values);
-            let certificate = is_harmonic.then(|| {
-                maximum_principle::certify(smoother.mesh.connectivity(), &smoother.laplacian, system.free(), &x)
-            });
             let facts = Facts {
                 method: "interpolate",
                 equation: "(6)",
@@ -76,7 +78,7 @@ fn solve(
                 constraints: Some(set),
                 metric_norm: None,
                 perturbation_factor: factor,
-                maximum_principle: certificate,
+                maximum_principle: certifier.as_ref().map(|certifier| certifier.certify(&x)),
                 solver: SolverReport::new(&solved, solution),
             };
             reports.push(measure(smoother, channel, &x, &values, facts)?);

@@ -24,38 +24,68 @@ pub struct MaximumPrinciple {
     pub mesh_extrema: usize,
 }
 
-/// `free`: ascending.
-pub(super) fn certify(
-    connectivity: &Connectivity,
-    laplacian: &CscMatrix<f64>,
-    free: &[u32],
-    x: &[f64],
-) -> MaximumPrinciple {
-    let mut is_free = vec![false; x.len()];
-    free.iter().for_each(|&v| is_free[v as usize] = true);
-    let mut smallest = f64::INFINITY;
-    let mut sides = vec![0_u8; x.len()];
-    let (offsets, rows, values) = laplacian.csc_data();
-    for column in 0..x.len() {
-        for k in offsets[column]..offsets[column + 1] {
-            let (row, value) = (rows[k], values[k]);
-            if row != column && value != 0.0 && is_free[row] {
-                smallest = if -value < smallest { -value } else { smallest };
-                sides[row] |= side(x[column] - x[row]);
+/// What is the same for all channels.
+#[derive(Debug)]
+pub(super) struct Certifier<'a> {
+    connectivity: &'a Connectivity,
+    /// Ascending.
+    free: &'a [u32],
+    smallest_weight: f64,
+    /// The neighbours of free vertices in L, as (vertex, neighbour); nothing where they are those along the edges of the mesh.
+    couplings: Option<Vec<[u32; 2]>>,
+}
+
+impl<'a> Certifier<'a> {
+    pub(super) fn new(connectivity: &'a Connectivity, laplacian: &CscMatrix<f64>, free: &'a [u32]) -> Self {
+        let n = connectivity.vertex_count();
+        let mut is_free = vec![false; n];
+        free.iter().for_each(|&v| is_free[v as usize] = true);
+        let (offsets, rows, values) = laplacian.csc_data();
+        // L stores its diagonal and the edges of the mesh, and with other weights more than these.
+        let mut is_mesh = rows.len() == n + 2 * connectivity.edges().len();
+        let mut smallest = f64::INFINITY;
+        for column in 0..n {
+            for k in offsets[column]..offsets[column + 1] {
+                if rows[k] != column {
+                    is_mesh &= values[k] != 0.0;
+                    if is_free[rows[k]] && values[k] != 0.0 && -values[k] < smallest {
+                        smallest = -values[k];
+                    }
+                }
             }
         }
+        let couplings = (!is_mesh).then(|| {
+            let mut couplings = Vec::new();
+            for (row, column, &value) in laplacian.triplet_iter() {
+                if row != column && value != 0.0 && is_free[row] {
+                    couplings.push([row as u32, column as u32]);
+                }
+            }
+            couplings
+        });
+        let smallest_weight = if smallest.is_finite() { smallest } else { 0.0 };
+        Self { connectivity, free, smallest_weight, couplings }
     }
-    let extrema = count_extrema(&sides, free);
-    sides.fill(0);
-    for &[a, b] in connectivity.edges() {
-        let difference = x[b as usize] - x[a as usize];
-        sides[a as usize] |= side(difference);
-        sides[b as usize] |= side(-difference);
-    }
-    MaximumPrinciple {
-        smallest_weight: if smallest.is_finite() { smallest } else { 0.0 },
-        extrema,
-        mesh_extrema: count_extrema(&sides, free),
+
+    pub(super) fn certify(&self, x: &[f64]) -> MaximumPrinciple {
+        let mut sides = vec![0_u8; x.len()];
+        for &[a, b] in self.connectivity.edges() {
+            let difference = x[b as usize] - x[a as usize];
+            sides[a as usize] |= side(difference);
+            sides[b as usize] |= side(-difference);
+        }
+        let mesh_extrema = count_extrema(&sides, self.free);
+        let extrema = match &self.couplings {
+            None => mesh_extrema,
+            Some(couplings) => {
+                sides.fill(0);
+                for &[vertex, neighbour] in couplings {
+                    sides[vertex as usize] |= side(x[neighbour as usize] - x[vertex as usize]);
+                }
+                count_extrema(&sides, self.free)
+            }
+        };
+        MaximumPrinciple { smallest_weight: self.smallest_weight, extrema, mesh_extrema }
     }
 }
 

@@ -159,6 +159,7 @@ impl Problem<'_> {
         residual
             / match self.pull {
                 Some(Pull { mass, epsilon }) if load.offset.is_empty() => epsilon * norm(&mass.times(&load.field)),
+                None if self.order == Order::First => norm(&load.offset),
                 _ => norm(&self.residual(load, &vec![0.0; x.len()])),
             }
     }
