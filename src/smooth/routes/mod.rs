@@ -1,9 +1,9 @@
-//! The ways to solve a Tikhonov system, and the choice between them.
+//! The ways to solve a system of smoothing, and the choice between them.
 //!
 //! | route | for | costs |
 //! | --- | --- | --- |
 //! | `complexCholesky` | a symmetric L with B = I (eq. 3), and the finite-element operator | a complex factor on the pattern of L |
-//! | `cholesky` | everything | a real factor on the pattern of LᵀL |
+//! | `cholesky` | everything | a real factor on the pattern of LᵀL, of L for harmonic interpolation |
 //! | `cgComplexCholesky` | eq. (5) with a symmetric L, when LᵀL is large | a complex factor on the pattern of L, some iterations |
 //! | `cgMultigrid` | a symmetric L, when no factor fits | iterations in little memory |
 //! | `cgJacobi` | everything | little memory, many iterations for small ε |
