@@ -11,6 +11,8 @@ import { setUp } from './setup.mjs';
 /** Of the page around the two views: what is left for them makes a picture as wide as a README's column. */
 const VIEWPORT = { width: 1240, height: 1115 };
 const READING = { width: 1240, height: 860 };
+/** Wide enough for the report's four columns. */
+const CONSTRAINTS = { width: 1480, height: 880 };
 /** Twice the width that it is shown with, for screens with small pixels: a PNG of it would have a megabyte. */
 const SCALE = 2;
 const QUALITY = 0.8;
@@ -53,6 +55,7 @@ await main(async () => {
     await page.at('show-levels').check();
     await page.at('show-glyphs').check();
     await page.at('tab-report').click();
+    await page.page.setViewportSize(CONSTRAINTS);
     await page.look('after');
     await save(page, 'constraints', await page.page.locator('main').screenshot());
   } finally {

@@ -347,7 +347,7 @@ stage_error! {
         NotPositiveDefinite {
             /// The column, hence the unknown.
             column: usize,
-        } => "the matrix is not numerically positive definite at unknown {column}; a larger epsilon helps",
+        } => "the matrix is not numerically positive definite at unknown {column} (on a mesh: that vertex); a larger epsilon helps, or, where triangles are very thin, the weights `intrinsicDelaunay`",
         /// A preconditioner turned a residual by a right angle or more.
         IndefinitePreconditioner {
             /// Iterations done.

@@ -1,5 +1,6 @@
 //! Fields with several values per vertex: taken apart, normalised, and put together again.
 
+use super::{Phase, Progress};
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::mesh::{LinkKind, TriMesh};
@@ -78,6 +79,17 @@ impl<'a> Channels<'a> {
             let numbers = first..self.count().min(first + TOGETHER);
             (first, numbers.map(|c| Channel::new(mesh, self.values(c), self.ranges[c])).collect())
         })
+    }
+
+    /// Tells the progress with some channels as that with all of them.
+    pub(super) fn share_of_progress(
+        &self,
+        first: usize,
+        count: usize,
+        progress: Progress<'_>,
+    ) -> impl FnMut(Phase, f64) {
+        let all = self.count() as f64;
+        move |phase, fraction| progress(phase, (first as f64 + fraction * count as f64) / all)
     }
 
     /// The input, for results to be written over it.

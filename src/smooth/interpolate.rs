@@ -54,6 +54,7 @@ fn solve(
     let mut factor = None;
     for (first, group) in channels.groups(&smoother.mesh) {
         let manner = smoother.manner(first == 0);
+        let progress = &mut channels.share_of_progress(first, group.len(), progress);
         let fields: Vec<&[f64]> = group.iter().map(|channel: &Channel| channel.normalized.as_slice()).collect();
         let solved = system.solve(&smoother.laplacian, &fields, manner, progress)?;
         if manner.bounds {

@@ -12,7 +12,8 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// With [`LaplacianWeights::IntrinsicDelaunay`](crate::operators::LaplacianWeights::IntrinsicDelaunay) the neighbours are those
 /// of the intrinsic triangulation, and weights can be negative at boundary and non-manifold edges only. What is an extremum
-/// among the neighbours along the mesh's own edges is counted, not promised.
+/// among the neighbours along the mesh's own edges is counted, not promised. Neighbours with the same value but for rounding are
+/// no extrema, alone or together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct MaximumPrinciple {

@@ -143,12 +143,14 @@ impl Smoother {
     ///
     /// # Properties
     /// Constrained values stay to the last bit. With 1-stars every constrained critical point keeps its type. Constants are
-    /// kept; T(af + b) = aT(f) + b. An empty set leaves no component constrained, a full one changes nothing. For what harmonic
+    /// kept; T(af + b) = aT(f) + b. An empty set leaves no component constrained, a full one changes nothing; a component whose
+    /// constrained values are all the same gets this value exactly. Vertices that no operator reaches keep theirs. For what harmonic
     /// interpolation promises about other extrema see [`MaximumPrinciple`].
     ///
     /// # Errors
     /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds` (a constrained vertex), `InvalidOption`,
-    /// `Unconstrained`; `NotPositiveDefinite`, `NotConverged`, `OutOfMemory` from the solver. Nothing is lost by them.
+    /// `Unconstrained`; `NotPositiveDefinite`, `NonFiniteEntry`, `NotConverged`, `IndefinitePreconditioner`, `OutOfMemory` from the
+    /// solver, on meshes with very thin triangles mostly. Nothing is lost by them.
     ///
     /// # Example
     /// ```

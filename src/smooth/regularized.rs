@@ -4,7 +4,7 @@ use super::bounds;
 use super::channels::Channels;
 use super::constraints::{ConstraintSet, LeftOut, level_constant_components};
 use super::report::{Facts, Smoothed, SolverReport, measure};
-use super::routes::{Mass, difference};
+use super::routes::Mass;
 use super::system::{Attraction, FullSystem, Solved};
 use super::{Phase, Progress, Smoother};
 use crate::error::Result;
@@ -58,6 +58,7 @@ fn solve(
     let mut factor = None;
     for (first, group) in channels.groups(&smoother.mesh) {
         let manner = smoother.manner(first == 0);
+        let progress = &mut channels.share_of_progress(first, group.len(), progress);
         let solved = system.solve(&smoother.mesh, &group, *epsilon, attraction, manner, progress)?;
         let mass = system.mass().unwrap_or(&Mass::Identity);
         if manner.bounds {
@@ -69,22 +70,23 @@ fn solve(
             if let Some(left_out) = left_out {
                 left_out.write(reach, &mut x);
             }
-            let mut f = Vec::with_capacity(solution.x.len());
             for (&v, &value) in system.unknowns().iter().zip(&solution.x) {
-                f.push(channel.normalized[v as usize]);
                 x[v as usize] = value;
             }
-            let metric_norm = mass.norm(&difference(&solution.x, &f));
             let mut values = channel.restored(&x, &changed);
             if let Some((set, _)) = constraints {
                 level_constant_components(reach, set, channel, &mut x, &mut values);
+            }
+            let mut moved = Vec::with_capacity(solution.x.len());
+            for &v in system.unknowns() {
+                moved.push(x[v as usize] - channel.normalized[v as usize]);
             }
             let facts = Facts {
                 method,
                 equation,
                 epsilon: Some(*epsilon),
                 constraints: constraints.as_ref().map(|(set, _)| *set),
-                metric_norm: Some(metric_norm),
+                metric_norm: Some(mass.norm(&moved)),
                 perturbation_factor: factor,
                 maximum_principle: None,
                 solver: SolverReport::new(&solved, solution),

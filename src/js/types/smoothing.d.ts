@@ -44,7 +44,7 @@ export interface SmootherOptions {
   operator?: Operator;
   /**
    * `"cholesky"` solves with a sparse factor. `"cg"` iterates without one: little memory, and with weights that are not
-   * symmetric many iterations for small ε. `"auto"` (default) takes the route that is expected to be fastest, and one that
+   * symmetric many iterations for small ε, or `NotConverged`. `"auto"` (default) takes the route that is expected to be fastest, and one that
    * needs less memory where that is short. {@link SolverReport.route} says which it was.
    */
   solver?: 'auto' | 'cholesky' | 'cg';
@@ -153,7 +153,7 @@ export interface InterpolateOptions extends ConstraintOptions {
 
 /** Of least squares with constraints. */
 export interface LeastSquaresOptions extends ConstraintOptions {
-  /** ε > 0. Large fits the constrained values, small smooths. */
+  /** ε > 0, without a unit (with operator `"fem"`: per length²). Large fits the constrained values, small smooths. */
   epsilon: number;
   /**
    * Positive weights of the constrained vertices: for vertices by number, without stars, one for each of them as they are listed
@@ -322,7 +322,10 @@ export interface SolverReport {
   unknowns: number;
   /** Entries of the factor; 0 without one. */
   factorNonzeros: number;
-  /** ‖b − Ax‖/‖b‖ of the system solved, with its matrix in factored form. */
+  /**
+   * ‖b − Ax‖/‖b‖ of the system solved, with its matrix in factored form. No measure of the error: where few vertices are constrained
+   * it can be large though x is right to many digits.
+   */
   relativeResidual: number;
   /** Corrections of the first solution. */
   refinementSteps: number;

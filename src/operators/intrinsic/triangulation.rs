@@ -16,7 +16,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Flips per edge at most. Without rounding the algorithm ends by itself, since every flip lowers the sum of squared sides
 /// over the area of all triangles \[Bobenko07\]; with rounding that is no proof. In the plane no edge comes back, so n
 /// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need a few
-/// flips per edge. Where flips run out, edges that are not Delaunay have weight zero.
+/// flips per edge. Where flips run out, edges that are not Delaunay keep their negative weights.
 const FLIPS_PER_EDGE: u64 = 1000;
 
 /// A side is `3t + c` as a half-edge of `Connectivity` is: from corner c of triangle t to corner (c + 1) % 3.
@@ -55,28 +55,32 @@ impl Triangulation {
     }
 
     /// Flips edges until all that have two triangles are Delaunay.
+    ///
+    /// In rounds over all edges that a flip of the last round has touched: on a fan of n triangles, one edge after the other
+    /// to its end would take about n² flips, where rounds divide it again and again.
     pub(super) fn make_delaunay(&mut self) {
         let count = self.sides.len();
         let mut left = FLIPS_PER_EDGE * count as u64;
-        let mut queued = vec![false; count];
-        let mut queue = Vec::new();
-        for start in 0..count as u32 {
-            queue.push(start);
-            queued[start as usize] = true;
-            while let Some(edge) = queue.pop() {
+        let mut queued = vec![true; count];
+        let mut round: Vec<u32> = (0..count as u32).collect();
+        let mut next = Vec::new();
+        while !round.is_empty() {
+            for &edge in &round {
                 queued[edge as usize] = false;
                 if left == 0 || self.is_delaunay(edge) {
                     continue;
                 }
                 let Some(around) = self.flip(edge) else { continue };
                 left -= 1;
-                for next in around {
-                    if !queued[next as usize] {
-                        queued[next as usize] = true;
-                        queue.push(next);
+                for near in around {
+                    if !queued[near as usize] {
+                        queued[near as usize] = true;
+                        next.push(near);
                     }
                 }
             }
+            round.clear();
+            core::mem::swap(&mut round, &mut next);
         }
     }
 
@@ -170,7 +174,7 @@ impl Triangulation {
         }
     }
 
-    /// Half the cotangents opposite to every edge, summed; not negative where an edge has two triangles.
+    /// Half the cotangents opposite to every edge, summed; not negative where an edge has two triangles and is Delaunay.
     pub(super) fn weights(&self) -> Vec<f64> {
         let mut weights = vec![0.0; self.sides.len()];
         for (t, edges) in self.edges.iter().enumerate() {
@@ -183,8 +187,9 @@ impl Triangulation {
                 weights[edges[c] as usize] += opposite.four_areas_cotangent / (8.0 * self.areas[t]);
             }
         }
-        for (weight, sides) in weights.iter_mut().zip(&self.sides) {
-            if sides[0] != NONE && *weight < 0.0 {
+        for (edge, weight) in weights.iter_mut().enumerate() {
+            if *weight < 0.0 && self.sides[edge][0] != NONE && self.is_delaunay(edge as u32) {
+                // By rounding.
                 *weight = 0.0;
             }
         }

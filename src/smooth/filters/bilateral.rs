@@ -69,6 +69,9 @@ fn exponent(sigma: f64) -> f64 {
     (0.5 / sigma / sigma).min(f64::MAX)
 }
 
+/// Progress is told after so many points.
+const TOLD_EVERY: usize = 16;
+
 /// How a neighbour counts.
 struct Weights {
     radius_squared: f64,
@@ -100,6 +103,10 @@ impl Points {
     fn step(&self, values: &[f64], weights: &Weights, next: &mut [f64], tell: &mut dyn FnMut(f64)) {
         self.grid.visit(&mut |cell, near| {
             for i in cell.clone() {
+                // A cell can hold all of the mesh.
+                if i % TOLD_EVERY == 0 {
+                    tell(i as f64 / values.len() as f64);
+                }
                 let mut sums = Sums { weights: 0.0, differences: 0.0 };
                 for range in near {
                     self.gather(values, i, range, weights, &mut sums);
@@ -107,7 +114,6 @@ impl Points {
                 // The point itself weighs 1, so the sum is not zero.
                 next[i] = values[i] + sums.differences / sums.weights;
             }
-            tell(cell.end as f64 / values.len() as f64);
         });
     }
 

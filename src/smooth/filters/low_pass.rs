@@ -48,7 +48,7 @@ pub(in crate::smooth) fn run(
         true => bounds::low_pass(&smoother.laplacian, &diagonal, is_symmetric, [lambda, mu], iterations),
         false => None,
     };
-    let filter = Filter { method: "lowPass", equation: "[24]", iterations, perturbation_factor };
+    let filter = Filter { method: "lowPass", equation: "[18, 24]", iterations, perturbation_factor };
     let averages = Averages::new(&smoother.laplacian, &diagonal);
     let mut steps = |channel: &Channel, tell: &mut dyn FnMut(f64)| -> Result<Vec<f64>> {
         let mut x = channel.normalized.clone();

@@ -108,7 +108,8 @@ fn expected(option: &str) -> &'static str {
     match option {
         "delta" | "offset" | "threshold" | "persistence" | "cutoffWavelength" | "lambda" | "mu" | "radius"
         | "sigmaDistance" | "sigmaValue" => "a number",
-        "channels" | "count" | "clusters" | "seed" | "iterations" => "an integer that is not negative",
+        "channels" | "count" | "clusters" | "seed" | "iterations" => "an integer from 0 to 4294967295",
+        "weights" => "the name of weights of the Laplacian; weights of constraints are for `Smoother.leastSquares`",
         "weld" | "binary" | "bounds" | "stars" => "true or false",
         _ => "a name in quotes",
     }
