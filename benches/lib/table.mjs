@@ -49,7 +49,7 @@ export function printCalls({ samples }) {
     const time = (kind) => median(samples[`${system}/${kind}`]);
     const again = next ? [number(time('next')), number(time('cholmod-next'))] : ['', ''];
     const several = [number(time('channels')), number(time('channels') / time('first'))];
-    const first = [samples[`${system}/first`][0], time('first'), time('cholmod-first')].map(number);
+    const first = [samples[`${system}/first`][0], time('first'), time('cholmod-first')].map((value) => number(value));
     rows.push([name, ...first, ...again, ...several]);
   }
   printTable(rows);
