@@ -15,7 +15,7 @@ pub mod mesh;
 pub mod operators;
 pub mod smooth;
 pub mod solve;
-// Public for `tests/bindings.rs` alone; the API for users is in `src/js`.
+// Public for `tests/bindings/` alone; the API for users is in `src/js`.
 #[cfg(feature = "wasm")]
 #[doc(hidden)]
 pub mod wasm;

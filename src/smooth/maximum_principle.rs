@@ -17,7 +17,8 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct MaximumPrinciple {
-    /// The smallest weight between a free vertex and a neighbour; negative ones void the principle. 0 where there are none.
+    /// The smallest weight between a free vertex and a neighbour; negative ones void the principle. 0 where there are none, and
+    /// where it is nothing but rounding.
     pub smallest_weight: f64,
     /// Free vertices that are extrema among the neighbours that L couples them with, beyond rounding (1e-12 of the range).
     pub extrema: usize,
@@ -44,10 +45,11 @@ impl<'a> Certifier<'a> {
         let (offsets, rows, values) = laplacian.csc_data();
         // L stores its diagonal and the edges of the mesh, and with other weights more than these.
         let mut is_mesh = rows.len() == n + 2 * connectivity.edges().len();
-        let mut smallest = f64::INFINITY;
+        let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for column in 0..n {
             for k in offsets[column]..offsets[column + 1] {
                 if rows[k] != column {
+                    largest = largest.max(values[k].abs());
                     is_mesh &= values[k] != 0.0;
                     if is_free[rows[k]] && values[k] != 0.0 && -values[k] < smallest {
                         smallest = -values[k];
@@ -64,7 +66,9 @@ impl<'a> Certifier<'a> {
             }
             couplings
         });
-        let smallest_weight = if smallest.is_finite() { smallest } else { 0.0 };
+        // The cotangent of a right angle is zero but for rounding, on either side.
+        let is_zero = !smallest.is_finite() || smallest.abs() <= f64::EPSILON * largest;
+        let smallest_weight = if is_zero { 0.0 } else { smallest };
         Self { connectivity, free, smallest_weight, couplings }
     }
 

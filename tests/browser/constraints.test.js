@@ -1,32 +1,8 @@
 // Constraints in the page: by rule and by hand, on the surface, in the table and in the persistence diagram; what is said where
 // nothing holds the field. Numbers are compared with what the package says of the same file in Node.
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
-import { startBrowser } from './driver.js';
-import { countsOf, expectReport, number, PERSISTENT, readTorus } from './torus.js';
-
-let browser;
-let page;
-let torus;
-
-beforeAll(async () => {
-  browser = await startBrowser();
-  torus = readTorus();
-});
-afterAll(async () => {
-  torus?.mesh.free();
-  await browser?.close();
-});
-afterEach(async () => {
-  const complaints = page?.complaints ?? [];
-  await page?.close();
-  page = null;
-  expect(complaints, 'errors in the console').toEqual([]);
-});
-
-async function openTorus(options) {
-  page = await browser.open({ example: 'torus', ...options });
-  expect(await page.settled()).toBe('ready');
-}
+import { describe, expect, test } from 'vitest';
+import { openTorus, page, torus } from './opened.js';
+import { countsOf, expectReport, number, PERSISTENT } from './torus.js';
 
 describe('constraints by rule', () => {
   const rules = {

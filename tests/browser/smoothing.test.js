@@ -1,34 +1,10 @@
 // Every method of smoothing in the page, its controls and its report, and differences. Numbers are compared with what the package
 // says of the same file in Node.
 import { readFileSync } from 'node:fs';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { readMesh } from 'morse-smooth';
-import { startBrowser } from './driver.js';
-import { countsOf, expectReport, number, PERSISTENT, readTorus } from './torus.js';
-
-let browser;
-let page;
-let torus;
-
-beforeAll(async () => {
-  browser = await startBrowser();
-  torus = readTorus();
-});
-afterAll(async () => {
-  torus?.mesh.free();
-  await browser?.close();
-});
-afterEach(async () => {
-  const complaints = page?.complaints ?? [];
-  await page?.close();
-  page = null;
-  expect(complaints, 'errors in the console').toEqual([]);
-});
-
-async function openTorus(options) {
-  page = await browser.open({ example: 'torus', ...options });
-  expect(await page.settled()).toBe('ready');
-}
+import { openTorus, page, torus } from './opened.js';
+import { countsOf, expectReport, number, PERSISTENT } from './torus.js';
 
 describe('methods', () => {
   const CONTROLS = [

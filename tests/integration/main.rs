@@ -1,4 +1,4 @@
-//! The integration tests, in one binary. wasm32 runs `tests/bindings.rs` instead.
+//! The integration tests, in one binary. wasm32 runs `tests/bindings/` instead.
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 

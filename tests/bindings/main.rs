@@ -1,0 +1,8 @@
+//! The exported classes and functions, called with JavaScript values: `wasm-pack test --node -- --features wasm`.
+#![cfg(all(target_arch = "wasm32", feature = "wasm"))]
+#![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod field;
+mod refusals;
+mod smoothing;
+mod support;
