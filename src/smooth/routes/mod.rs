@@ -151,8 +151,8 @@ impl Routes {
         }
         let mut first_failure = None;
         for &route in task.candidates() {
-            // Iterations hardly go where a factor did not; they only need less memory.
-            // They do where nothing pulls: there it is the square that a factor fails at, and multigrid has the root of it.
+            // Iterations hardly go where a factor did not; they only need less memory. But where nothing pulls, it is the square
+            // that a factor fails at, and multigrid has the root of it.
             let by_root = task.problem.pull.is_none() && task.problem.inner.is_some();
             let hopeless =
                 !by_root && first_failure.as_ref().is_some_and(|f| !matches!(f, SolveError::OutOfMemory { .. }));
