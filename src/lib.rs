@@ -13,10 +13,12 @@ pub mod field;
 pub mod io;
 pub mod mesh;
 pub mod operators;
+#[cfg(feature = "render")]
+pub mod render;
 pub mod smooth;
 pub mod solve;
 // Public for `tests/bindings/` alone; the API for users is in `src/js`.
-#[cfg(feature = "wasm")]
+#[cfg(feature = "bindings")]
 #[doc(hidden)]
 pub mod wasm;
 

@@ -1,0 +1,185 @@
+/**
+ * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A second WebAssembly module, which draws the
+ * same bytes everywhere.
+ *
+ * @module
+ */
+
+import type { CriticalPoints, Ids, InitOptions, LevelSets, MorseComplex, Numbers } from './index.js';
+
+export { MorseSmoothError } from './index.js';
+
+/**
+ * Loads the WebAssembly module of the pictures, which is another one than that of the package's main entry. In a browser, wait for
+ * it before any other call (otherwise `NotInitialized`); in Node the import has already done it.
+ *
+ * @throws `LoadFailed` where the module cannot be fetched or compiled.
+ */
+export default function init(options?: InitOptions): Promise<void>;
+
+/** Names of colour maps. All but the last three are perceptually uniform; those three diverge from their middle. */
+export type Colormap = 'viridis' | 'cividis' | 'magma' | 'inferno' | 'plasma' | 'coolWarm' | 'blueRed' | 'purpleGreen';
+
+/** From where to look at the mesh. The whole of it is in the picture, whatever the direction. */
+export interface Camera {
+  /** From the middle of the mesh towards the camera, of any length. Default: from the front and above. */
+  direction?: readonly [number, number, number];
+  /** What points upwards in the picture; not along `direction`. Default: y, or z for what lies flat. */
+  up?: readonly [number, number, number];
+}
+
+/** What to draw, and how. What was found before is drawn as it is; otherwise it is found at δ = 0. */
+export interface DrawOptions {
+  /** Default `"viridis"`. */
+  colormap?: Colormap;
+  /** The values with the first and the last colour. Default: least and greatest value. */
+  range?: readonly [number, number];
+  /** Level sets: at these values, so many inside the range, or lines from `TriMesh.levelSets`. Default `{ count: 15 }`. */
+  levels?: Numbers | { count: number } | Pick<LevelSets, 'points' | 'offsets' | 'levels' | 'closed'>;
+  /** One colour between two levels. Default false. */
+  bands?: boolean;
+  /** All critical points, or those from `TriMesh.criticalPoints`. Default true. */
+  criticalPoints?: boolean | Pick<CriticalPoints, 'vertices' | 'kinds'>;
+  /**
+   * The Morse complex, above a persistence (relative to the range), or lines from `TriMesh.morseComplex`. Default false.
+   */
+  morseComplex?: boolean | { persistence: number } | Pick<MorseComplex, 'vertices' | 'offsets' | 'kinds'>;
+  camera?: Camera;
+}
+
+/** See {@link snapshot}. */
+export interface SnapshotOptions extends DrawOptions {
+  /** Pixels, 1 to 8192. Default 1200. */
+  width?: number;
+  /** Pixels, 1 to 8192. Default 900. */
+  height?: number;
+  /** A bar that says which colour is which value, where there is room. Default true. */
+  colorBar?: boolean;
+  /** Written above the picture. Default: nothing. */
+  title?: string;
+}
+
+/** See {@link sheet}. `width` and `height` are those of each picture (default 600 × 560), and the title is above them all. */
+export interface SheetOptions extends SnapshotOptions {
+  /** Above each picture. Default `["before", "after", "difference"]`. */
+  titles?: readonly [string, string, string];
+  /** Default `"coolWarm"`. */
+  differenceColormap?: Colormap;
+  /** The difference with the last colour; its negative has the first. Default: the largest that there is. */
+  largestDifference?: number;
+}
+
+/**
+ * Draws a field on a mesh: a shaded surface with the colours of the values, level sets, critical points, a colour bar.
+ *
+ * The positions and triangles are those of `new TriMesh(…)`, the values one for each vertex. Returns a PNG file.
+ *
+ * @throws what `new TriMesh(…)` and `TriMesh.criticalPoints` throw; `InvalidOption`, `UnknownOption`; `OutOfMemory`.
+ */
+export function snapshot(positions: Numbers, triangles: Ids, values: Numbers, options?: SnapshotOptions): Uint8Array;
+
+/** Draws two fields and after − before, side by side: the two with one range, the difference with one around zero. */
+export function sheet(
+  positions: Numbers,
+  triangles: Ids,
+  before: Numbers,
+  after: Numbers,
+  options?: SheetOptions,
+): Uint8Array;
+
+/** A mesh that is drawn more than once. Call `free` when done with it. */
+export class Scene {
+  constructor(positions: Numbers, triangles: Ids);
+  /** See {@link snapshot}. */
+  snapshot(values: Numbers, options?: SnapshotOptions): Uint8Array;
+  /** See {@link sheet}. */
+  sheet(before: Numbers, after: Numbers, options?: SheetOptions): Uint8Array;
+  /** The surface of every draw list. */
+  surface(): Surface;
+  /** What `snapshot` draws on the surface, for a renderer of one's own. */
+  drawList(values: Numbers, options?: DrawOptions): DrawList;
+  /** Gives the memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+/**
+ * A surface for drawing: moved and scaled so that the middle of its bounding box is the origin and its farthest vertex at distance 1,
+ * with triangles that face outwards. A vertex of the mesh is there once for each sheet that meets in it.
+ */
+export interface Surface {
+  /** x, y, z of each corner. */
+  positions: Float32Array;
+  /** Unit vectors. */
+  normals: Float32Array;
+  triangles: Uint32Array;
+  /** The vertex of the mesh that each corner is. */
+  vertices: Uint32Array;
+  /** Which axis points up: z for things that lie flat. */
+  up: 'y' | 'z';
+  /** A point p of the mesh is drawn at (p − centre) · scale. */
+  centre: [number, number, number];
+  scale: number;
+}
+
+/** What is drawn on a surface, in one flat list of each kind. Colours are 0xrrggbb, widths pixels. */
+export interface DrawList {
+  /** For each corner of the surface its place in `colours`, 0 to 1. */
+  shades: Float32Array;
+  /** The colour map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. */
+  colours: Uint8Array;
+  /** The values with shade 0 and 1. */
+  range: [number, number];
+  lines: Lines[];
+  solids: Solids[];
+  /** Of the radius of solids, for whoever draws fewer of them. */
+  size: SolidSize;
+  light: Light;
+}
+
+/** Lines of one style. */
+export interface Lines {
+  /** What they are. */
+  kind: 'levels' | 'descending' | 'ascending';
+  /** x, y, z of each point. */
+  points: Float32Array;
+  /** Where each line starts among the points, and their number. */
+  offsets: Uint32Array;
+  /** 1 for each line that closes. */
+  closed: Uint8Array;
+  stroke: { colour: number; width: number; opacity: number; casing: { colour: number; width: number } | null };
+}
+
+/** Instances of one solid. */
+export interface Solids {
+  kind: 'minima' | 'saddles' | 'maxima';
+  /** One solid, about as large as the unit ball, its axis along y: x, y, z of each corner, unit normals, triangles. */
+  shape: { positions: Float32Array; normals: Float32Array; triangles: Uint32Array };
+  colour: number;
+  /** The same solid, enlarged by `scale` and seen from its inside, makes a rim. */
+  rim: { colour: number; scale: number };
+  /** What shines of the colour without light, 0 to 1. */
+  glow: number;
+  /** The vertex of each instance. */
+  vertices: Uint32Array;
+  /** On the surface, x, y, z. The solid stands `lift` radii above it. */
+  places: Float32Array;
+  /** Unit vectors along which the axes stand. */
+  axes: Float32Array;
+  radius: number;
+  lift: number;
+}
+
+/** The radius of n solids is √(`cover` / n), at least `least` and at most `most`. */
+export interface SolidSize {
+  cover: number;
+  least: number;
+  most: number;
+}
+
+/** Light from everywhere, and from one direction as the camera sees it (x right, y up, z towards the camera). */
+export interface Light {
+  ambient: number;
+  diffuse: number;
+  direction: [number, number, number];
+}

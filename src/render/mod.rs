@@ -1,0 +1,22 @@
+//! Pictures of fields on meshes, without a graphics card: a shaded surface with the colours of the values, level sets, critical
+//! points, the Morse complex. The same bytes on every platform.
+//!
+//! Data flows one way: [`Surface`] (the mesh as it is drawn) → [`DrawList`] (what is drawn on it, for this renderer and any
+//! other) → pixels → PNG.
+
+mod camera;
+mod colormap;
+mod draw_list;
+mod options;
+mod scene;
+mod solids;
+mod style;
+mod surface;
+
+pub use camera::Camera;
+pub use colormap::{Colormap, Rgb};
+pub use draw_list::{Casing, DrawList, Light, Lines, Rim, Role, SolidSize, Solids, Stroke};
+pub use options::{DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, SnapshotOptions};
+pub use scene::{Scene, sheet, snapshot};
+pub use solids::Shape;
+pub use surface::{Axis, Surface};

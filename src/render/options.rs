@@ -1,0 +1,157 @@
+//! What to draw, and how.
+
+use super::camera::Camera;
+use super::colormap::Colormap;
+use crate::error::OptionError;
+use crate::field::{CriticalPoint, LevelSets, MorseComplex, Threshold};
+
+/// More pixels along a side than any screen or page has; the bound keeps a slip from filling the memory.
+pub(super) const LARGEST_SIDE: u32 = 8192;
+
+/// Where level sets are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Levels<'a> {
+    /// Nowhere.
+    None,
+    /// So many levels, evenly spaced inside the range of the colours. The default is 15.
+    Count(u32),
+    /// At these values.
+    At(&'a [f64]),
+    /// These lines, as [`level_sets`](crate::field::level_sets) gives them.
+    Traced(&'a LevelSets),
+}
+
+/// Which critical points are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Glyphs<'a> {
+    /// None.
+    None,
+    /// All of [`critical_points`](crate::field::critical_points) at δ = 0. The default.
+    #[default]
+    Found,
+    /// These.
+    Points(&'a [CriticalPoint]),
+}
+
+/// Whether the Morse complex is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Separatrices<'a> {
+    /// It is not. The default.
+    #[default]
+    None,
+    /// With pairs up to this persistence cancelled.
+    Above(Threshold),
+    /// These lines, as [`morse_complex`](crate::field::morse_complex) gives them.
+    Traced(&'a MorseComplex),
+}
+
+/// What to draw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawOptions<'a> {
+    /// Colours of the values. Default [`Colormap::Viridis`].
+    pub colormap: Colormap,
+    /// The values that have the first and the last colour; values beyond have them, too. Default: least and greatest value.
+    pub range: Option<[f64; 2]>,
+    /// Default: 15 levels.
+    pub levels: Levels<'a>,
+    /// One colour between two levels instead of a continuous map. Default false.
+    pub bands: bool,
+    /// Default: all critical points.
+    pub critical_points: Glyphs<'a>,
+    /// Default: not drawn.
+    pub morse_complex: Separatrices<'a>,
+}
+
+impl Default for DrawOptions<'_> {
+    fn default() -> Self {
+        Self {
+            colormap: Colormap::default(),
+            range: None,
+            levels: Levels::Count(15),
+            bands: false,
+            critical_points: Glyphs::default(),
+            morse_complex: Separatrices::default(),
+        }
+    }
+}
+
+impl DrawOptions<'_> {
+    pub(super) fn check(&self) -> Result<(), OptionError> {
+        match self.range {
+            Some([low, high]) if !(low < high && (high - low).is_finite()) => {
+                Err(invalid("range", "two finite numbers, the smaller one first"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What to draw, and how large and from where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SnapshotOptions<'a> {
+    /// What to draw. Default: colours, 15 level sets, critical points.
+    pub draw: DrawOptions<'a>,
+    /// Pixels, 1 to 8192. Default 1200.
+    pub width: u32,
+    /// Pixels, 1 to 8192. Default 900.
+    pub height: u32,
+    /// A bar that says which colour is which value; it is left out where the picture is too small for it. Default true.
+    pub color_bar: bool,
+    /// Written above the picture. Default: nothing.
+    pub title: &'a str,
+    /// From where to look. Default: from the front and a little from above, or from above on what lies flat.
+    pub camera: Camera,
+}
+
+impl Default for SnapshotOptions<'_> {
+    fn default() -> Self {
+        Self {
+            draw: DrawOptions::default(),
+            width: 1200,
+            height: 900,
+            color_bar: true,
+            title: "",
+            camera: Camera::default(),
+        }
+    }
+}
+
+/// A sheet of three pictures side by side: before, after, difference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SheetOptions<'a> {
+    /// Of each picture: `width` and `height` are those of one, the range is that of both fields, and the title is above them all.
+    /// Default as for a snapshot, but 600 by 560 pixels.
+    pub picture: SnapshotOptions<'a>,
+    /// What is written above each picture. Default: before, after, difference.
+    pub titles: [&'a str; 3],
+    /// Colours of after − before. Default [`Colormap::CoolWarm`].
+    pub difference_colormap: Colormap,
+    /// The difference that has the last colour; its negative has the first. Default: the largest that there is.
+    pub largest_difference: Option<f64>,
+}
+
+impl Default for SheetOptions<'_> {
+    fn default() -> Self {
+        Self {
+            picture: SnapshotOptions { width: 600, height: 560, ..SnapshotOptions::default() },
+            titles: ["before", "after", "difference"],
+            difference_colormap: Colormap::CoolWarm,
+            largest_difference: None,
+        }
+    }
+}
+
+pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
+    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
+}
+
+impl SnapshotOptions<'_> {
+    pub(super) fn check(&self) -> Result<(), OptionError> {
+        for (option, side) in [("width", self.width), ("height", self.height)] {
+            if !(1..=LARGEST_SIDE).contains(&side) {
+                return Err(invalid(option, "an integer from 1 to 8192"));
+            }
+        }
+        Ok(())
+    }
+}

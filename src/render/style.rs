@@ -1,0 +1,34 @@
+//! How things look: the one place for colours, widths and sizes, of the pictures and of the page.
+
+use super::colormap::Rgb;
+use super::draw_list::{Casing, Light, Rim, SolidSize, Stroke};
+
+pub(super) const BACKGROUND: Rgb = [255, 255, 255];
+/// Of text, ticks and frames.
+pub(super) const INK: Rgb = [38, 44, 56];
+/// Of lines and rims on the surface.
+const DARK: Rgb = [13, 19, 32];
+
+/// Shading shows the shape without hiding the colours: the light comes from beside the eye, and most of it from everywhere.
+pub(super) const LIGHT: Light = Light { ambient: 0.73, diffuse: 0.48, direction: [-0.407_6, 0.611_4, 0.679_3] };
+
+pub(super) const LEVELS: Stroke = Stroke { color: DARK, width: 1.5, opacity: 0.85, casing: None };
+/// Of the Morse complex, near to the colours of minima and maxima.
+pub(super) const DESCENDING: Stroke =
+    Stroke { color: [0x8f, 0xc1, 0xff], width: 2.0, opacity: 1.0, casing: Some(Casing { color: DARK, width: 4.0 }) };
+pub(super) const ASCENDING: Stroke =
+    Stroke { color: [0xff, 0x8a, 0x8f], width: 2.0, opacity: 1.0, casing: Some(Casing { color: DARK, width: 4.0 }) };
+
+/// Minima are cubes, saddles octahedra, maxima balls: told apart without colours.
+pub(super) const MINIMUM: Rgb = [0x2f, 0x6b, 0xff];
+pub(super) const SADDLE: Rgb = [0xff, 0xff, 0xff];
+pub(super) const MAXIMUM: Rgb = [0xe5, 0x26, 0x3c];
+pub(super) const RIM: Rim = Rim { color: [0x10, 0x15, 0x1f], scale: 1.28 };
+/// Sides that face away from the light keep their colour.
+pub(super) const GLOW: f64 = 0.35;
+/// Radii above the surface at which solids stand, so that most of them is seen.
+pub(super) const LIFT: f64 = 0.45;
+/// Many solids cover about an eighth of a surface of area 1; a few are of a set size.
+pub(super) const SIZE: SolidSize = SolidSize { cover: 0.04, least: 0.004, most: 0.02 };
+/// From so many on, balls are seen with a few pixels each and need not be round.
+pub(super) const CROWD: usize = 300;
