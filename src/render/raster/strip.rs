@@ -31,6 +31,27 @@ pub(super) struct Strip {
     lamp: Option<Lamp>,
 }
 
+/// One line of samples: `sides` of the first sample and their `steps`, likewise the depth with its bounds. Of plain numbers, as this is
+/// the innermost loop.
+#[inline(never)]
+fn fill(depths: &mut [f32], ids: &mut [u32], triangle: u32, sides: [i64; 3], steps: [i64; 3], depth: [f64; 4]) {
+    let [mut a, mut b, mut c] = sides;
+    let [start, step, least, most] = depth;
+    for (k, (nearest, id)) in depths.iter_mut().zip(ids).enumerate() {
+        if a | b | c >= 0 {
+            // Of slivers, the plane is only known between the corners.
+            let depth = (start + step * k as f64).max(least).min(most) as f32;
+            if depth > *nearest {
+                *nearest = depth;
+                *id = triangle;
+            }
+        }
+        a += steps[0];
+        b += steps[1];
+        c += steps[2];
+    }
+}
+
 /// Half-planes and depth of a projected triangle.
 struct Plane {
     /// Edge k is opposite to corner k: `a·x + b·y + c`, in steps of the grid, is not negative inside.
@@ -101,6 +122,7 @@ impl Strip {
     }
 
     /// Enters a triangle wherever it is the nearest.
+    #[inline(never)]
     pub(super) fn add(&mut self, facets: &Facets, triangle: u32) {
         let corners = facets.triangles[triangle as usize].map(|corner| facets.corners[corner as usize]);
         let Some(plane) = Plane::of(corners) else { return };
@@ -133,30 +155,19 @@ impl Strip {
         let right = at(plane.edges.map(|[a, _, _]| (a * GRID) as f64 / plane.area as f64));
         let down = at(plane.edges.map(|[_, b, _]| b as f64 / plane.area as f64));
         let depth_of_column = at(origin);
+        let span = (columns.end - columns.start) as usize;
+        let steps = plane.edges.map(|[a, _, _]| a * GRID);
         for line in lines {
             let y = middle(line as usize);
-            let mut sides = plane.edges.map(|[a, b, c]| a * start + b * y + c);
-            let depth_of_line = depth_of_column + down * y as f64;
-            let row = (line as usize - above) * self.width * SAMPLES;
-            for column in columns.clone() {
-                if sides[0] | sides[1] | sides[2] >= 0 {
-                    let depth = depth_of_line + right * (column - columns.start) as f64;
-                    // Of slivers, the plane is only known between the corners.
-                    let depth = depth.max(least).min(most) as f32;
-                    let place = row + column as usize;
-                    if depth > self.depths[place] {
-                        self.depths[place] = depth;
-                        self.triangles[place] = triangle;
-                    }
-                }
-                for k in 0..3 {
-                    sides[k] += plane.edges[k][0] * GRID;
-                }
-            }
+            let sides = plane.edges.map(|[a, b, c]| a * start + b * y + c);
+            let row = (line as usize - above) * self.width * SAMPLES + columns.start as usize;
+            let (depths, ids) = (&mut self.depths[row..row + span], &mut self.triangles[row..row + span]);
+            fill(depths, ids, triangle, sides, steps, [depth_of_column + down * y as f64, right, least, most]);
         }
     }
 
     /// Mixes the samples of each pixel.
+    #[inline(never)]
     pub(super) fn resolve(&mut self, facets: &Facets, list: &DrawList, pixmap: &mut PixmapMut<'_>) {
         let lamp = self.lamp.take().unwrap_or_else(|| Lamp::new(list.light));
         let brush = Brush { facets, list, lamp: &lamp };
@@ -187,6 +198,7 @@ impl Strip {
         self.lamp = Some(lamp);
     }
 
+    #[inline(never)]
     /// The triangles in a pixel; each sample by itself where colours have steps.
     fn gather(&self, row: usize, column: usize, groups: &mut Vec<Group>, one_by_one: bool) {
         for j in 0..SAMPLES {
@@ -210,6 +222,7 @@ impl Strip {
         }
     }
 
+    #[inline(never)]
     /// Whether a point on the surface is not hidden: from one of the four samples around it at least.
     pub(super) fn sees(&self, facets: &Facets, probe: Probe) -> bool {
         let samples = SAMPLES as f64;
@@ -259,6 +272,7 @@ struct Brush<'a> {
 }
 
 impl Brush<'_> {
+    #[inline(never)]
     fn color(&self, group: &Group) -> Rgb {
         let material = self.facets.material(group.triangle);
         if let Material::Rim(color) = material {
