@@ -7,7 +7,9 @@
 mod camera;
 mod colormap;
 mod draw_list;
+mod legend;
 mod options;
+mod page;
 mod png;
 mod raster;
 mod scene;
@@ -17,8 +19,9 @@ mod surface;
 
 pub use camera::Camera;
 pub use colormap::{Colormap, Rgb};
-pub use draw_list::{Casing, DrawList, Light, Lines, Rim, Role, SolidSize, Solids, Stroke};
+pub use draw_list::{DrawList, Lines, Role, Solids};
 pub use options::{DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, SnapshotOptions};
 pub use scene::{Scene, sheet, snapshot};
 pub use solids::Shape;
+pub use style::{Casing, Light, Rim, SolidSize, Stroke};
 pub use surface::{Axis, Surface};
