@@ -7,11 +7,13 @@
 mod camera;
 mod colormap;
 mod draw_list;
+mod font;
 mod options;
 mod scene;
 mod solids;
 mod style;
 mod surface;
+mod text;
 
 pub use camera::Camera;
 pub use colormap::{Colormap, Rgb};
