@@ -14,6 +14,7 @@ mod solids;
 mod style;
 mod surface;
 mod text;
+mod ticks;
 
 pub use camera::Camera;
 pub use colormap::{Colormap, Rgb};
@@ -22,3 +23,4 @@ pub use options::{DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, Snaps
 pub use scene::{Scene, sheet, snapshot};
 pub use solids::Shape;
 pub use surface::{Axis, Surface};
+pub use ticks::{round_ticks, tick_label};
