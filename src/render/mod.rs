@@ -8,6 +8,7 @@ mod camera;
 mod colormap;
 mod draw_list;
 mod font;
+mod legend;
 mod options;
 mod scene;
 mod solids;
