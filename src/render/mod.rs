@@ -7,6 +7,7 @@
 mod camera;
 mod colormap;
 mod draw_list;
+mod font;
 mod legend;
 mod options;
 mod page;
@@ -16,6 +17,8 @@ mod scene;
 mod solids;
 mod style;
 mod surface;
+mod text;
+mod ticks;
 
 pub use camera::Camera;
 pub use colormap::{Colormap, Rgb};
@@ -25,3 +28,4 @@ pub use scene::{Scene, sheet, snapshot};
 pub use solids::Shape;
 pub use style::{Casing, Light, Rim, SolidSize, Stroke};
 pub use surface::{Axis, Surface};
+pub use ticks::{round_ticks, tick_label};
