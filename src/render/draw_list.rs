@@ -154,6 +154,9 @@ fn level_lines<'a>(
         Levels::None => return Ok((Vec::new(), None)),
         Levels::Traced(sets) => {
             let mut levels = sets.levels.clone();
+            if levels.len() != sets.closed.len() || levels.iter().any(|level| !level.is_finite()) {
+                return Err(invalid("levels", "lines with a finite level each").into());
+            }
             levels.sort_by(f64::total_cmp);
             levels.dedup();
             return Ok((levels, Some(Cow::Borrowed(sets))));

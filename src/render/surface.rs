@@ -76,7 +76,8 @@ impl Surface {
             plane: extent.plane(),
             center: extent.center,
             size: extent.size,
-            area: mesh.area() / extent.size / extent.size,
+            // Not the mesh's, which is too small a number for what is tiny.
+            area: faces.iter().map(|&face| 0.5 * norm(face)).sum(),
             first_corner: Vec::new(),
         };
         surface.split(connectivity, &faces, &turned);
