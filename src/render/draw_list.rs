@@ -2,7 +2,7 @@
 
 use super::colormap::{Rgb, between};
 use super::options::{DrawOptions, Glyphs, Levels, Separatrices, invalid};
-use super::solids::{Shape, ball, cube, octahedron};
+use super::solids::{Shape, ball, octahedron, tetrahedron};
 use super::style;
 use super::surface::Surface;
 use crate::error::{Error, FieldError};
@@ -328,14 +328,14 @@ fn solids(mesh: &TriMesh, surface: &Surface, points: &[CriticalPoint], size: Sol
         if vertices.is_empty() {
             continue;
         }
-        let shape = match kind {
-            CriticalKind::Minimum => cube(),
-            CriticalKind::Saddle => octahedron(),
-            CriticalKind::Maximum => ball(if vertices.len() > style::CROWD { 1 } else { 3 }),
+        let (shape, rim) = match kind {
+            CriticalKind::Minimum => (tetrahedron(), style::TETRAHEDRON_RIM),
+            CriticalKind::Saddle => (octahedron(), style::OCTAHEDRON_RIM),
+            CriticalKind::Maximum => (ball(if vertices.len() > style::CROWD { 1 } else { 3 }), style::BALL_RIM),
         };
         let places = vertices.iter().map(|&v| surface.place(mesh.position(v))).collect();
         let axes = vertices.iter().map(|&v| surface.normal_at(v)).collect();
-        let (rim, glow, lift) = (style::RIM, style::GLOW, style::LIFT);
+        let (glow, lift) = (style::GLOW, style::LIFT);
         all.push(Solids { role, shape, color, rim, glow, vertices, places, axes, radius, lift });
     }
     all

@@ -8,6 +8,8 @@ mod camera;
 mod colormap;
 mod draw_list;
 mod options;
+mod png;
+mod raster;
 mod scene;
 mod solids;
 mod style;

@@ -1,7 +1,11 @@
 //! A mesh that is drawn, once or more often.
 
+use super::camera::{Rectangle, View};
 use super::draw_list::DrawList;
 use super::options::{DrawOptions, SheetOptions, SnapshotOptions};
+use super::png::Picture;
+use super::raster::paint;
+use super::style;
 use super::surface::Surface;
 use crate::error::Error;
 use crate::mesh::TriMesh;
@@ -52,8 +56,14 @@ impl Scene {
     /// Likewise.
     pub fn snapshot(&self, values: &[f64], options: &SnapshotOptions<'_>) -> Result<Vec<u8>, Error> {
         options.check()?;
-        let _list = self.draw_list(values, &options.draw)?;
-        Ok(b"\x89PNG".to_vec())
+        let list = self.draw_list(values, &options.draw)?;
+        let mut picture = Picture::new(options.width, options.height, style::BACKGROUND)?;
+        let mut pixmap = picture.pixmap()?;
+        let all = Rectangle { x: 0.0, y: 0.0, width: f64::from(options.width), height: f64::from(options.height) };
+        let view = View::framing(&self.surface, &options.camera, &all)?;
+        let unit = (all.width.min(all.height) / 900.0).max(0.5);
+        paint(&mut pixmap, &all, &self.surface, &list, &view, unit)?;
+        Ok(picture.to_png()?)
     }
 
     /// See [`sheet`].

@@ -1,6 +1,6 @@
 //! The solids that mark critical points, about as large as the unit ball.
 
-use crate::mesh::norm;
+use crate::mesh::{cross, difference, norm};
 
 /// One solid: flat faces have corners of their own.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -13,9 +13,9 @@ pub struct Shape {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Half the side of the cube, and the octahedron's radius: both look as large as the ball.
-const CUBE: f64 = 0.75;
-const OCTAHEDRON: f64 = 1.15;
+/// Radii of the spheres around the others: all look as large as the ball.
+const TETRAHEDRON: f64 = 1.5;
+const OCTAHEDRON: f64 = 1.25;
 
 /// The signs of the eight octants.
 const OCTANTS: [[f64; 3]; 8] = [
@@ -29,24 +29,21 @@ const OCTANTS: [[f64; 3]; 8] = [
     [-1., -1., -1.],
 ];
 
-pub(super) fn cube() -> Shape {
+/// A tetrahedron that stands on a corner: a triangle from above and from most sides.
+pub(super) fn tetrahedron() -> Shape {
+    // Unit vectors with equal angles between them; √2/3, √6/3 and √8/3 are sines and cosines of these.
+    let upper = TETRAHEDRON / 3.0;
+    let (far, near, side) = (2.0 * 2.0_f64.sqrt() * upper, 2.0_f64.sqrt() * upper, 6.0_f64.sqrt() * upper);
+    let corners = [[0.0, -TETRAHEDRON, 0.0], [0.0, upper, far], [side, upper, -near], [-side, upper, -near]];
     let mut shape = Shape::default();
-    for axis in 0..3 {
-        for sign in [1.0, -1.0] {
-            let corner = |a: f64, b: f64| {
-                let mut point = [0.0; 3];
-                point[axis] = sign * CUBE;
-                point[(axis + 1) % 3] = sign * a * CUBE;
-                point[(axis + 2) % 3] = b * CUBE;
-                point
-            };
-            let mut normal = [0.0; 3];
-            normal[axis] = sign;
-            let first = shape.positions.len() as u32;
-            shape.positions.extend([corner(-1., -1.), corner(1., -1.), corner(1., 1.), corner(-1., 1.)]);
-            shape.normals.extend([normal; 4]);
-            shape.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-        }
+    for face in [[1, 2, 3], [0, 2, 1], [0, 3, 2], [0, 1, 3]] {
+        let points = face.map(|k: usize| corners[k]);
+        let normal = cross(difference(points[1], points[0]), difference(points[2], points[0]));
+        let length = norm(normal);
+        let first = shape.positions.len() as u32;
+        shape.positions.extend(points);
+        shape.normals.extend([normal.map(|x| x / length); 3]);
+        shape.triangles.push([first, first + 1, first + 2]);
     }
     shape
 }

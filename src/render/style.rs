@@ -19,15 +19,20 @@ pub(super) const DESCENDING: Stroke =
 pub(super) const ASCENDING: Stroke =
     Stroke { color: [0xff, 0x8a, 0x8f], width: 2.0, opacity: 1.0, casing: Some(Casing { color: DARK, width: 4.0 }) };
 
-/// Minima are cubes, saddles octahedra, maxima balls: told apart without colours.
+/// Minima are tetrahedra that point into the surface, saddles octahedra, maxima balls: triangles, squares and discs are told apart
+/// without colours.
 pub(super) const MINIMUM: Rgb = [0x2f, 0x6b, 0xff];
 pub(super) const SADDLE: Rgb = [0xff, 0xff, 0xff];
 pub(super) const MAXIMUM: Rgb = [0xe5, 0x26, 0x3c];
-pub(super) const RIM: Rim = Rim { color: [0x10, 0x15, 0x1f], scale: 1.28 };
+const RIM: Rgb = [0x10, 0x15, 0x1f];
+/// Pointed solids need more of it, since their faces are nearer to their middle.
+pub(super) const TETRAHEDRON_RIM: Rim = Rim { color: RIM, scale: 1.44 };
+pub(super) const OCTAHEDRON_RIM: Rim = Rim { color: RIM, scale: 1.36 };
+pub(super) const BALL_RIM: Rim = Rim { color: RIM, scale: 1.28 };
 /// Sides that face away from the light keep their colour.
 pub(super) const GLOW: f64 = 0.35;
 /// Radii above the surface at which solids stand, so that most of them is seen.
-pub(super) const LIFT: f64 = 0.45;
+pub(super) const LIFT: f64 = 0.8;
 /// Many solids cover about an eighth of a surface of area 1; a few are of a set size.
 pub(super) const SIZE: SolidSize = SolidSize { cover: 0.04, least: 0.004, most: 0.02 };
 /// From so many on, balls are seen with a few pixels each and need not be round.
