@@ -127,7 +127,8 @@ impl DrawList {
     }
 
     /// The colour at a place, 0 to 1.
-    pub(super) fn color(&self, shade: f64) -> Rgb {
+    #[must_use]
+    pub fn color(&self, shade: f64) -> Rgb {
         if self.step_colors.is_empty() {
             between(&self.colors, shade.clamp(0.0, 1.0))
         } else {
