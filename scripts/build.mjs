@@ -1,50 +1,63 @@
-// npm run build: the wasm module into pkg/, the npm package's files into dist/.
+// npm run build: the wasm modules into pkg/, the npm package's files into dist/.
 import { createHash } from 'node:crypto';
-import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { dirname, join, relative } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { bundle } from './lib/bundle.mjs';
 import { withLock } from './lib/lock.mjs';
 import { Problem, main, step } from './lib/log.mjs';
-import { dist, inRoot, pkg, root } from './lib/paths.mjs';
+import { dist, inRoot, modules, pkg, root } from './lib/paths.mjs';
 import { ask } from './lib/run.mjs';
 import { runWasmPack } from './lib/wasm-pack.mjs';
 import { setUp } from './setup.mjs';
 
-const WASM = 'morse_smooth_bg.wasm';
+/** What each module does without: it need not be built anew for that. */
+const FOREIGN = {
+  core: /^(render|wasm.snapshot)\b/,
+  snapshot: /^wasm.(critical|files|levels|mesh|options|persistence|smoother)\b/,
+};
 
 /** Builds what is out of date. The set-up must have been done. */
 export function build() {
   return withLock(inRoot('node_modules', '.build.lock'), async () => {
-    await unlessCurrent(join(pkg, WASM), wasmInputs(), () =>
-      step('building the WebAssembly module, optimised (a minute or two from scratch)', buildWasm),
+    for (const [name, module] of Object.entries(modules)) {
+      await unlessCurrent(name, module.built, wasmInputs(name), () =>
+        step(`building ${module.title}, optimised (a minute or two from scratch)`, () => buildWasm(module)),
+      );
+    }
+    await unlessCurrent('dist', join(dist, modules.core.wasm), bundleInputs(), () =>
+      step('bundling the JavaScript into dist/', bundle),
     );
-    await unlessCurrent(join(dist, WASM), bundleInputs(), () => step('bundling the JavaScript into dist/', bundle));
   });
 }
 
 /** Makes `output`, unless it is there and was made from these very files. */
-async function unlessCurrent(output, inputs, work) {
-  const stamp = join(pkg, `${relative(root, dirname(output))}.sha256`);
+async function unlessCurrent(name, output, inputs, work) {
+  const stamp = join(pkg, `${name}.sha256`);
   const hash = hashOf(inputs);
   if (existsSync(output) && existsSync(stamp) && readFileSync(stamp, 'utf8') === hash) return;
   rmSync(stamp, { force: true });
+  mkdirSync(pkg, { recursive: true });
   await work();
   writeFileSync(stamp, hash);
 }
 
-/** Everything that the module is made from: cargo would notice a change, but wasm-opt would not notice that there is none. */
-function wasmInputs() {
-  const sources = readdirSync(inRoot('src'), { recursive: true }).filter((name) => name.endsWith('.rs'));
+/** Everything that a module is made from: cargo would notice a change, but wasm-opt would not notice that there is none. */
+function wasmInputs(name) {
+  const sources = readdirSync(inRoot('src'), { recursive: true }).filter(
+    (file) => file.endsWith('.rs') && !FOREIGN[name].test(file),
+  );
   const others = ['Cargo.toml', 'Cargo.lock', 'package-lock.json', join('scripts', 'build.mjs')];
-  return [...others, ...sources.map((name) => join('src', name))];
+  return [...others, ...sources.map((file) => join('src', file))];
 }
 
 function bundleInputs() {
   const sources = readdirSync(inRoot('src', 'js'), { recursive: true })
     .filter((name) => /\.(js|mjs|ts)$/.test(name))
     .map((name) => join('src', 'js', name));
-  return ['package.json', join('pkg', WASM), join('scripts', 'build.mjs'), ...sources];
+  const wasm = Object.values(modules).map(({ built }) => relative(root, built));
+  return ['package.json', join('scripts', 'lib', 'bundle.mjs'), ...wasm, ...sources];
 }
 
 function hashOf(files) {
@@ -53,11 +66,12 @@ function hashOf(files) {
   return hash.digest('hex');
 }
 
-async function buildWasm() {
+/** Each module has a folder of its own, because wasm-pack optimises all that lie in its folder. */
+async function buildWasm({ name, feature, title, built }) {
   const parameters = ['build', '--target', 'web', '--release', '--no-pack', '--no-gitignore'];
-  parameters.push('--out-dir', pkg, '--out-name', 'morse_smooth', '--', '--features', 'wasm', '--locked');
+  parameters.push('--out-dir', dirname(built), '--out-name', name, '--', '--features', feature, '--locked');
   const { code, output } = await runWasmPack(parameters, { env: { RUSTFLAGS: rustFlags() } });
-  if (code !== 0) throw new Problem(`${output}\nThe WebAssembly module does not build.`);
+  if (code !== 0) throw new Problem(`${output}\n${title} does not build.`);
 }
 
 /**
@@ -71,41 +85,6 @@ function rustFlags() {
   const remap = [`--remap-path-prefix=${cargoHome}=/cargo`, `--remap-path-prefix=${root}=/morse-smooth`];
   return [process.env.RUSTFLAGS, ...OPTIMISATION, ...remap].filter(Boolean).join(' ');
 }
-
-/** The parts of the type declarations, in the order in which one reads them: one module in several files. */
-const TYPES = ['package', 'files', 'mesh', 'field', 'smoothing'];
-
-/** Two bundles with the glue in them, one for browsers and one for Node; the rest is copied as it is. */
-async function bundle() {
-  rmSync(dist, { recursive: true, force: true });
-  mkdirSync(dist);
-  await bundleOne('core.js', 'browser', { file: join(dist, 'core.js'), format: 'esm' });
-  await bundleOne('node.js', 'node', { file: join(dist, 'node.cjs'), format: 'cjs', exports: 'named' });
-
-  const wasm = readFileSync(join(pkg, WASM));
-  writeFileSync(join(dist, WASM), wasm);
-  writeFileSync(join(dist, 'wasm-base64.js'), `export default '${wasm.toString('base64')}';\n`);
-  for (const name of ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs']) copyFileSync(source(name), join(dist, name));
-  // The same text for both kinds of module: TypeScript tells them apart by the file's name, and imports between the parts
-  // would have to name files of either kind.
-  const types = TYPES.map((name) => readFileSync(source(`types/${name}.d.ts`), 'utf8')).join('\n');
-  for (const name of ['index.d.ts', 'index.d.cts']) writeFileSync(join(dist, name), types);
-}
-
-async function bundleOne(name, platform, output) {
-  const { rolldown } = await import('rolldown');
-  const { version } = JSON.parse(readFileSync(inRoot('package.json'), 'utf8'));
-  const define = { __VERSION__: JSON.stringify(version) };
-  try {
-    const bundled = await rolldown({ input: source(name), platform, transform: { define } });
-    await bundled.write(output);
-    await bundled.close();
-  } catch (error) {
-    throw new Problem(`${error.message}\nThe JavaScript does not build.`);
-  }
-}
-
-const source = (name) => inRoot('src', 'js', name);
 
 if (import.meta.url === pathToFileURL(process.argv[1]).href) {
   await main(async () => {

@@ -1,4 +1,5 @@
 // The public names, the same in every entry.
+import { makeDisposable } from './handle.js';
 import { Smoother } from './smoother.js';
 import { TriMesh } from './mesh.js';
 
@@ -10,9 +11,4 @@ export { Smoother, smooth } from './smoother.js';
 /** Of the package; the build puts it in. */
 export const version = __VERSION__;
 
-// `using mesh = new TriMesh(…)`, where the language has it.
-if (Symbol.dispose) {
-  for (const { prototype } of [TriMesh, Smoother]) {
-    Object.defineProperty(prototype, Symbol.dispose, { value: prototype.free, configurable: true, writable: true });
-  }
-}
+makeDisposable(TriMesh, Smoother);

@@ -5,7 +5,7 @@ const IDS = 'a Uint32Array, a Uint16Array or an array of whole numbers';
 const LARGEST_ID = 2 ** 32 - 1;
 
 /** The name of a typed array's class, also for arrays of another realm (a frame, a vm context). */
-const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : undefined);
+export const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : undefined);
 
 /**
  * Values as the wasm module takes them. A Float64Array passes through: the call copies it into wasm memory anyway. One of another
@@ -26,10 +26,10 @@ export function toNumbers(value, argument) {
 }
 
 /**
- * Vertex numbers as the wasm module takes them; whether they name vertices of the mesh is checked there. For those that it cannot
- * be asked about, `refuse` gives the error.
+ * Vertex numbers and the like as the wasm module takes them; whether they name vertices of the mesh is checked there. For those
+ * that it cannot be asked about, `refuse` gives the error.
  */
-function toIds(value, argument, refuse) {
+export function toIds(value, argument, refuse) {
   const name = typedArrayName(value);
   if (name === 'Uint32Array') return value instanceof Uint32Array ? value : new Uint32Array(value);
   if (name === 'Uint16Array') return Uint32Array.from(value);
@@ -110,7 +110,7 @@ export function toLevels(value, vertices) {
  * A plain object, also of another realm. The entries of a Map, or what a class inherits, would be passed over in silence: such
  * values are refused instead.
  */
-function isRecord(value) {
+export function isRecord(value) {
   if (typeof value !== 'object' || value === null) return false;
   const prototype = Object.getPrototypeOf(value);
   return prototype === null || Object.getPrototypeOf(prototype) === null;

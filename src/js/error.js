@@ -29,6 +29,11 @@ export function invalidArgument(argument, expected, more = {}) {
   });
 }
 
+/** An option with a value that it does not take. */
+export function invalidOption(option, expected) {
+  return new MorseSmoothError('InvalidOption', `option \`${option}\` takes ${expected}`, { option, expected });
+}
+
 /**
  * Runs a call into the wasm module and turns whatever it throws into a `MorseSmoothError`.
  *

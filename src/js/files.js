@@ -1,7 +1,7 @@
 import { toBytes, toFields, toOptions } from './convert.js';
 import { attempt } from './error.js';
 import { Handle } from './handle.js';
-import { core } from './instance.js';
+import { core } from './core-instance.js';
 import { TriMesh, handleOf } from './mesh.js';
 
 export function readMesh(bytes, options) {

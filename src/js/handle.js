@@ -48,3 +48,11 @@ export class Handle {
     throw new MorseSmoothError('Busy', `this ${object} cannot be ${what} while a call on it is running`, { object });
   }
 }
+
+/** `using mesh = new TriMesh(…)`, where the language has it. */
+export function makeDisposable(...classes) {
+  if (!Symbol.dispose) return;
+  for (const { prototype } of classes) {
+    Object.defineProperty(prototype, Symbol.dispose, { value: prototype.free, configurable: true, writable: true });
+  }
+}

@@ -1,27 +1,27 @@
-import { MorseSmoothError, invalidArgument } from './error.js';
-import { start } from './instance.js';
+import { MorseSmoothError, invalidArgument, invalidOption } from './error.js';
 
 const SOURCES = 'a URL, string, Request, Response, BufferSource or WebAssembly.Module';
 
-let loading = null;
-
 /**
- * Loads the module once, from `options.wasm` or else from what `defaultSource` returns. After a failure it can be called again.
- *
- * Not an async function: later calls return the very same promise.
+ * The `init` of a module's entries: loads it once, from `options.wasm` or else from what `defaultSource` returns. After a failure
+ * it can be called again.
  */
-export function initFrom(defaultSource, options) {
-  let source;
-  try {
-    source = sourceOf(options) ?? defaultSource();
-  } catch (error) {
-    return Promise.reject(error);
-  }
-  loading ??= load(source).catch((error) => {
-    loading = null;
-    throw error;
-  });
-  return loading;
+export function loaderOf(instance) {
+  let loading = null;
+  // Not an async function: later calls return the very same promise.
+  return (defaultSource, options) => {
+    let source;
+    try {
+      source = sourceOf(options) ?? defaultSource();
+    } catch (error) {
+      return Promise.reject(error);
+    }
+    loading ??= load(instance, source).catch((error) => {
+      loading = null;
+      throw error;
+    });
+    return loading;
+  };
 }
 
 /** What the options ask to load: `undefined` when they leave it open. */
@@ -34,18 +34,15 @@ export function sourceOf(options) {
   }
   const { wasm } = options;
   if (wasm === undefined || isAddress(wasm) || isResponse(wasm) || isCode(wasm)) return wasm;
-  throw new MorseSmoothError('InvalidOption', `option \`wasm\` takes ${SOURCES}`, {
-    option: 'wasm',
-    expected: SOURCES,
-  });
+  throw invalidOption('wasm', SOURCES);
 }
 
-async function load(source) {
+async function load(instance, source) {
   const detail = {};
   try {
     const code = isAddress(source) ? await fetch(source) : source;
     if (isResponse(code)) Object.assign(detail, { url: code.url, status: code.status });
-    await start(await compile(code));
+    await instance.start(await compile(code));
   } catch (error) {
     const from = detail.url ? ` from ${detail.url}` : '';
     const message = `the WebAssembly module could not be loaded${from}: ${error.message}`;

@@ -1,7 +1,7 @@
 import { toConstraints, toLevels, toNumbers, toOptions, toTriangles, toVertices } from './convert.js';
 import { attempt, invalidArgument } from './error.js';
 import { Handle } from './handle.js';
-import { core } from './instance.js';
+import { core } from './core-instance.js';
 
 /** Of every mesh. (A private field would be out of reach for the functions that take a mesh.) */
 const handles = new WeakMap();

@@ -1,6 +1,6 @@
 import { toConstraints, toNumbers, toOptions } from './convert.js';
 import { Handle } from './handle.js';
-import { core } from './instance.js';
+import { core } from './core-instance.js';
 import { handleOf } from './mesh.js';
 import { relayProgress } from './progress.js';
 

@@ -22,17 +22,20 @@ export type Colormap = 'viridis' | 'cividis' | 'magma' | 'inferno' | 'plasma' | 
 
 /** From where to look at the mesh. The whole of it is in the picture, whatever the direction. */
 export interface Camera {
-  /** From the middle of the mesh towards the camera, of any length. Default: from the front and above. */
+  /** From the middle of the mesh towards the camera, of any length. Default: from the front and above, straight on what is plane. */
   direction?: readonly [number, number, number];
-  /** What points upwards in the picture; not along `direction`. Default: y, or z for what lies flat. */
+  /** What points upwards in the picture; not along `direction`. Default: y, or z for what lies flat ({@link Surface.up}). */
   up?: readonly [number, number, number];
 }
 
-/** What to draw, and how. What was found before is drawn as it is; otherwise it is found at δ = 0. */
+/**
+ * What to draw on the surface. Level sets, critical points and the Morse complex are found here, at δ = 0, or drawn as they were
+ * found before: results of `TriMesh` are taken as they are, with all that is in them.
+ */
 export interface DrawOptions {
   /** Default `"viridis"`. */
   colormap?: Colormap;
-  /** The values with the first and the last colour. Default: least and greatest value. */
+  /** The values with the first and the last colour, which values beyond them have, too. Default: least and greatest value. */
   range?: readonly [number, number];
   /** Level sets: at these values, so many inside the range, or lines from `TriMesh.levelSets`. Default `{ count: 15 }`. */
   levels?: Numbers | { count: number } | Pick<LevelSets, 'points' | 'offsets' | 'levels' | 'closed'>;
@@ -41,10 +44,10 @@ export interface DrawOptions {
   /** All critical points, or those from `TriMesh.criticalPoints`. Default true. */
   criticalPoints?: boolean | Pick<CriticalPoints, 'vertices' | 'kinds'>;
   /**
-   * The Morse complex, above a persistence (relative to the range), or lines from `TriMesh.morseComplex`. Default false.
+   * The Morse complex: the whole, without the pairs up to a persistence (relative to the range of the values), or lines from
+   * `TriMesh.morseComplex`. Default false.
    */
   morseComplex?: boolean | { persistence: number } | Pick<MorseComplex, 'vertices' | 'offsets' | 'kinds'>;
-  camera?: Camera;
 }
 
 /** See {@link snapshot}. */
@@ -57,10 +60,17 @@ export interface SnapshotOptions extends DrawOptions {
   colorBar?: boolean;
   /** Written above the picture. Default: nothing. */
   title?: string;
+  camera?: Camera;
 }
 
-/** See {@link sheet}. `width` and `height` are those of each picture (default 600 × 560), and the title is above them all. */
+/**
+ * See {@link sheet}. `width` and `height` are those of each picture (default 600 × 560), and the title is above them all. What was
+ * found on one field is not for two (`InapplicableOption`).
+ */
 export interface SheetOptions extends SnapshotOptions {
+  levels?: Numbers | { count: number };
+  criticalPoints?: boolean;
+  morseComplex?: boolean | { persistence: number };
   /** Above each picture. Default `["before", "after", "difference"]`. */
   titles?: readonly [string, string, string];
   /** Default `"coolWarm"`. */
@@ -78,7 +88,12 @@ export interface SheetOptions extends SnapshotOptions {
  */
 export function snapshot(positions: Numbers, triangles: Ids, values: Numbers, options?: SnapshotOptions): Uint8Array;
 
-/** Draws two fields and after − before, side by side: the two with one range, the difference with one around zero. */
+/**
+ * Draws two fields and after − before, side by side: the two with one range, the difference with one around zero. Returns a PNG
+ * file.
+ *
+ * @throws as {@link snapshot}; `InapplicableOption`.
+ */
 export function sheet(
   positions: Numbers,
   triangles: Ids,
@@ -122,15 +137,23 @@ export interface Surface {
   scale: number;
 }
 
-/** What is drawn on a surface, in one flat list of each kind. Colours are 0xrrggbb, widths pixels. */
+/** What is drawn on a surface, in one flat list of each kind. Colours of lines and solids are 0xrrggbb, widths pixels. */
 export interface DrawList {
-  /** For each corner of the surface its place in `colours`, 0 to 1. */
+  /**
+   * For each corner of the surface its place in `colours`, 0 to 1; below and above, the colour is the first and the last. Linear on
+   * triangles, as the field is.
+   */
   shades: Float32Array;
-  /** The colour map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. */
+  /**
+   * The colour map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. Between them it is linear; with `bands` it
+   * has steps, and the nearest colour is the right one.
+   */
   colours: Uint8Array;
   /** The values with shade 0 and 1. */
   range: [number, number];
+  /** Level sets, then the Morse complex: later ones lie above earlier ones. */
   lines: Lines[];
+  /** Critical points, one entry for each kind that there is. */
   solids: Solids[];
   /** Of the radius of solids, for whoever draws fewer of them. */
   size: SolidSize;
@@ -141,13 +164,23 @@ export interface DrawList {
 export interface Lines {
   /** What they are. */
   kind: 'levels' | 'descending' | 'ascending';
-  /** x, y, z of each point. */
+  /** x, y, z of each point, on the surface. */
   points: Float32Array;
   /** Where each line starts among the points, and their number. */
   offsets: Uint32Array;
-  /** 1 for each line that closes. */
+  /** 1 for each line that closes; its first point is not repeated. */
   closed: Uint8Array;
-  stroke: { colour: number; width: number; opacity: number; casing: { colour: number; width: number } | null };
+  stroke: Stroke;
+}
+
+/** How lines are drawn. */
+export interface Stroke {
+  colour: number;
+  width: number;
+  /** 0 to 1. */
+  opacity: number;
+  /** A line under it, so that it stands out from any colour. */
+  casing: { colour: number; width: number } | null;
 }
 
 /** Instances of one solid. */

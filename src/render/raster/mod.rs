@@ -4,9 +4,11 @@
 //! with the picture. While a strip's depths are there, lines ask them which of their pieces are seen; those are drawn as smooth
 //! strokes at the end.
 
+mod brush;
 mod facets;
 mod light;
 mod lines;
+mod plane;
 mod strip;
 
 use tiny_skia::PixmapMut;

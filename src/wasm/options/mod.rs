@@ -3,6 +3,8 @@
 mod constraints;
 mod smoothing;
 
+pub(super) use super::convert::is_absent;
+pub(super) use super::error::invalid;
 pub(super) use constraints::{ConstraintInput, from_rule};
 pub(super) use smoothing::{BILATERAL, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read_smooth};
 
@@ -115,16 +117,8 @@ fn expected(option: &str) -> &'static str {
     }
 }
 
-pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
-    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
-}
-
 fn unsupported(option: &str, value: &str) -> OptionError {
     OptionError::UnsupportedOption { option: option.to_owned(), value: value.to_owned() }
-}
-
-pub(super) fn is_absent(value: &JsValue) -> bool {
-    value.is_undefined() || value.is_null()
 }
 
 /// The value of an option that takes one of several names; the first is the default.

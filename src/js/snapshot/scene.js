@@ -1,0 +1,62 @@
+import { toNumbers, toTriangles } from '../convert.js';
+import { attempt } from '../error.js';
+import { Handle } from '../handle.js';
+import { instance } from './instance.js';
+import { toPictureOptions } from './options.js';
+
+export class Scene {
+  #handle;
+  #vertexCount;
+
+  constructor(positions, triangles) {
+    const { RawScene } = instance.functions();
+    const numbers = toNumbers(positions, 'positions');
+    this.#vertexCount = Math.floor(numbers.length / 3);
+    const ids = toTriangles(triangles, this.#vertexCount);
+    const raw = attempt(() => new RawScene(numbers, ids));
+    this.#handle = new Handle('Scene', raw);
+  }
+
+  snapshot(values, options) {
+    const numbers = toNumbers(values, 'values');
+    const settings = toPictureOptions(options, this.#vertexCount);
+    return this.#handle.use((raw) => raw.snapshot(numbers, settings));
+  }
+
+  sheet(before, after, options) {
+    const fields = [toNumbers(before, 'before'), toNumbers(after, 'after')];
+    const settings = toPictureOptions(options, this.#vertexCount);
+    return this.#handle.use((raw) => raw.sheet(...fields, settings));
+  }
+
+  surface() {
+    return this.#handle.use((raw) => raw.surface());
+  }
+
+  drawList(values, options) {
+    const numbers = toNumbers(values, 'values');
+    const settings = toPictureOptions(options, this.#vertexCount);
+    return this.#handle.use((raw) => raw.drawList(numbers, settings));
+  }
+
+  free() {
+    this.#handle.free();
+  }
+}
+
+export function snapshot(positions, triangles, values, options) {
+  return once(positions, triangles, (scene) => scene.snapshot(values, options));
+}
+
+export function sheet(positions, triangles, before, after, options) {
+  return once(positions, triangles, (scene) => scene.sheet(before, after, options));
+}
+
+function once(positions, triangles, draw) {
+  const scene = new Scene(positions, triangles);
+  try {
+    return draw(scene);
+  } finally {
+    scene.free();
+  }
+}
