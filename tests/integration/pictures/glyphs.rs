@@ -128,9 +128,8 @@ fn those_behind_are_hidden() {
     // A point in the middle of the side that is not seen.
     let mesh = shapes::sphere(3).unwrap();
     let values = coordinate(&mesh, 0);
-    let lowest = (0..mesh.vertex_count() as u32)
-        .min_by(|&a, &b| mesh.position(a)[2].total_cmp(&mesh.position(b)[2]))
-        .unwrap();
+    let lowest =
+        (0..mesh.vertex_count() as u32).min_by(|&a, &b| mesh.position(a)[2].total_cmp(&mesh.position(b)[2])).unwrap();
     for kind in KINDS {
         let points = [point(lowest, kind)];
         let mut options = from([0.0, 0.0, 1.0], bare(150, 150));
@@ -184,7 +183,9 @@ fn solids_are_closed_and_face_outwards() {
     let values: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
     let list = Scene::new(&mesh).draw_list(&values, &Default::default()).unwrap();
     // Of the tetrahedron 8√3/27 r³, of the octahedron 4/3 r³, of the ball 4π/3.
-    for (solids, least, most) in [(&list.solids[0], 1.0, 2.2), (&list.solids[1], 1.3, 3.0), (&list.solids[2], 3.9, 4.19)] {
+    for (solids, least, most) in
+        [(&list.solids[0], 1.0, 2.2), (&list.solids[1], 1.3, 3.0), (&list.solids[2], 3.9, 4.19)]
+    {
         let shape = &solids.shape;
         let found = volume(shape);
         assert!(found > least && found < most, "{:?}: {found}", solids.role);

@@ -30,7 +30,8 @@ impl Ink {
     }
 
     fn at(&self, x: usize, y: usize) -> f64 {
-        let difference = |from: [u8; 3], to: [u8; 3]| (0..3).map(|c| f64::from(from[c]) - f64::from(to[c])).sum::<f64>();
+        let difference =
+            |from: [u8; 3], to: [u8; 3]| (0..3).map(|c| f64::from(from[c]) - f64::from(to[c])).sum::<f64>();
         let (plain, drawn) = (self.without.at(x, y), self.with.at(x, y));
         difference(plain, drawn) / (self.opacity * difference(plain, self.color))
     }
@@ -96,7 +97,7 @@ fn level_sets_of_the_distance_are_circles() {
 fn lines_are_as_wide_in_proportion_to_the_picture() {
     let mesh = shapes::grid(5, 5).unwrap();
     let values = coordinate(&mesh, 0);
-    for (size, expected) in [(900, 1.0), (1350, 1.5), (450, 0.5)] {
+    for (size, expected) in [(900, 1.0), (1350, 1.5), (600, 2.0 / 3.0)] {
         let mut options = bare(size, size);
         options.draw.levels = Levels::At(&[0.4]);
         let ink = Ink::of(&mesh, &values, &options);

@@ -11,4 +11,4 @@ mod random;
 mod refused;
 mod shapes;
 mod surfaces;
-pub(crate) mod tracer;
+mod tracer;

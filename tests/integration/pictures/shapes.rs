@@ -109,7 +109,10 @@ fn odd_meshes_are_drawn() {
         draws(name, &mesh);
     }
     draws("pinched", &support::random_surface(3, &shapes::sphere(3).unwrap(), 0.5));
-    draws("in a line", &support::mesh(&[[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 1, 3]]));
+    draws(
+        "in a line",
+        &support::mesh(&[[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2], [0, 1, 3]]),
+    );
 }
 
 #[test]

@@ -48,7 +48,8 @@ fn check(name: &str, mesh: &TriMesh) -> Surface {
         assert!(minus(place, here).iter().all(|x| x.abs() < 1e-14), "{name}: {here:?}, not {place:?}");
     }
     // In the unit ball, and touching it; its box is around the origin.
-    let farthest = surface.positions.chunks_exact(3).map(|p| dot([p[0], p[1], p[2]], [p[0], p[1], p[2]])).fold(0.0, f64::max);
+    let farthest =
+        surface.positions.chunks_exact(3).map(|p| dot([p[0], p[1], p[2]], [p[0], p[1], p[2]])).fold(0.0, f64::max);
     assert!((farthest - 1.0).abs() < 1e-9, "{name}: {farthest}");
     for i in 0..3 {
         let along = || surface.positions.iter().skip(i).step_by(3);
@@ -117,6 +118,22 @@ fn the_edges_of_a_cube_are_sharp() {
         let axis = (0..3).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs())).unwrap();
         assert!((normal[axis].abs() - 1.0).abs() < 1e-12, "{normal:?} is along no axis");
         assert!(normal[axis] * place[axis] > 0.0, "{normal:?} points inwards at {place:?}");
+    }
+}
+
+#[test]
+fn a_thin_plate_faces_outwards() {
+    let mesh = cube();
+    let flat = mesh.positions().iter().enumerate().map(|(k, x)| if k % 3 == 2 { 0.01 * x } else { *x }).collect();
+    for inside_out in [false, true] {
+        let mut triangles = mesh.connectivity().triangles().to_vec();
+        triangles.iter_mut().filter(|_| inside_out).for_each(|t| t.swap(0, 1));
+        let plate = TriMesh::new(Vec::clone(&flat), triangles.as_flattened().to_vec()).unwrap();
+        let surface = check("plate", &plate);
+        for corner in 0..surface.vertices.len() as u32 {
+            let (place, normal) = (point(&surface.positions, corner), point(&surface.normals, corner));
+            assert!(dot(place, normal) > 0.0, "{normal:?} at {place:?}");
+        }
     }
 }
 

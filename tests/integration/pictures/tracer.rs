@@ -10,9 +10,9 @@ type Point = [f64; 3];
 
 /// Half of the angle that the camera sees of the shorter side.
 const ANGLE: f64 = 15.0;
-/// The room that is left around the mesh: this part of the distance, and a ball around every vertex.
-const MARGIN: f64 = 1.08;
-const BALL: f64 = 0.052;
+/// The room that is left: a ball around every vertex, and from there this part of the distance.
+const BALL: f64 = 0.05;
+const MARGIN: f64 = 1.03;
 
 pub(crate) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -56,11 +56,10 @@ impl Eye {
             let right = points.iter().map(|p| p[axis] + slope * p[2]).fold(f64::MIN, f64::max);
             let left = points.iter().map(|p| p[axis] - slope * p[2]).fold(f64::MAX, f64::min);
             let sine = slope / slope.hypot(1.0);
-            let near = (right - left) / (2.0 * slope);
-            ((MARGIN * near).max(near + BALL / sine), 0.5 * (left + right))
+            ((right - left) / (2.0 * slope) + BALL / sine, 0.5 * (left + right))
         };
         let [(across, x), (along, y)] = [side(0, 0.5 * width), side(1, 0.5 * height)];
-        let z = across.max(along);
+        let z = MARGIN * across.max(along);
         let place = [0, 1, 2].map(|i| x * axes[0][i] + y * axes[1][i] + z * axes[2][i]);
         Self { axes, place, focus, middle: [0.5 * width, 0.5 * height] }
     }
@@ -182,15 +181,11 @@ fn compare(name: &str, mesh: &TriMesh, direction: Point, up: Point, size: [u32; 
         .collect();
     let (mut inside, mut outside) = (0, 0);
     for y in 0..image.height {
-        let band: Vec<usize> = (0..boxes.len())
-            .filter(|&t| boxes[t][2] <= y as f64 + 1.0 && boxes[t][3] >= y as f64)
-            .collect();
+        let band: Vec<usize> =
+            (0..boxes.len()).filter(|&t| boxes[t][2] <= y as f64 + 1.0 && boxes[t][3] >= y as f64).collect();
         for x in 0..image.width {
-            let near: Vec<usize> = band
-                .iter()
-                .copied()
-                .filter(|&t| boxes[t][0] <= x as f64 + 1.0 && boxes[t][1] >= x as f64)
-                .collect();
+            let near: Vec<usize> =
+                band.iter().copied().filter(|&t| boxes[t][0] <= x as f64 + 1.0 && boxes[t][1] >= x as f64).collect();
             let at = |u: f64, v: f64| first(surface, &near, &eye, [x as f64 + u, y as f64 + v]);
             let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| at(u, v));
             let expected = match at(0.5, 0.5) {
