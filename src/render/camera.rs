@@ -119,9 +119,8 @@ fn axes(surface: &Surface, camera: &Camera) -> Result<[[f64; 3]; 3], OptionError
         (norm(right) > APART).then(|| unit(right)).flatten()
     };
     let right = match wanted {
-        Some(up) => {
-            sideways(up).ok_or_else(|| OptionError::invalid("camera.up", "a direction that is not along `camera.direction`"))?
-        }
+        Some(up) => sideways(up)
+            .ok_or_else(|| OptionError::invalid("camera.up", "a direction that is not along `camera.direction`"))?,
         // Seen from above or below, what was at the back is up.
         None => sideways(usual)
             .or_else(|| sideways(if surface.up == Axis::Z { [0.0, 1.0, 0.0] } else { [0.0, 0.0, -1.0] }))

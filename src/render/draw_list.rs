@@ -156,7 +156,7 @@ fn level_lines<'a>(
         Levels::Traced(sets) => {
             let mut levels = sets.levels.clone();
             if levels.len() != sets.closed.len() || levels.iter().any(|level| !level.is_finite()) {
-                return Err(invalid("levels", "lines with a finite level each").into());
+                return Err(OptionError::invalid("levels", "lines with a finite level each").into());
             }
             levels.sort_by(f64::total_cmp);
             levels.dedup();

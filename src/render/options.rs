@@ -179,7 +179,10 @@ impl SheetOptions<'_> {
     pub(super) fn check_total(&self, [width, height]: [f64; 2]) -> Result<(), OptionError> {
         for (option, side) in [("width", width), ("height", height)] {
             if side > f64::from(LARGEST_SIDE) {
-                return Err(OptionError::invalid(option, "a smaller number: the whole sheet may have 8192 pixels along a side"));
+                return Err(OptionError::invalid(
+                    option,
+                    "a smaller number: the whole sheet may have 8192 pixels along a side",
+                ));
             }
         }
         Ok(())

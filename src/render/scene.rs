@@ -80,11 +80,8 @@ impl Scene {
         let (difference, largest) = self.difference(before, after)?;
         let largest = options.largest_difference.unwrap_or(largest);
         let change = options.difference(if largest > 0.0 { Some([-largest, largest]) } else { None });
-        let lists = [
-            self.draw_list(before, &draw)?,
-            self.draw_list(after, &draw)?,
-            self.draw_list(&difference, &change)?,
-        ];
+        let lists =
+            [self.draw_list(before, &draw)?, self.draw_list(after, &draw)?, self.draw_list(&difference, &change)?];
 
         let (width, height) = (f64::from(picture.width), f64::from(picture.height));
         let text = Text::for_picture(width, height);

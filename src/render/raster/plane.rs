@@ -34,9 +34,8 @@ impl Plane {
         let sign = if is_front { -1 } else { 1 };
         let [a, b, c] = [half_plane(q, r, sign), half_plane(r, p, sign), half_plane(p, q, sign)];
         let scale = 1.0 / (sign * area) as f64;
-        let slope = |axis: usize| {
-            (a[axis] as f64 * p.depth + b[axis] as f64 * q.depth + c[axis] as f64 * r.depth) * scale
-        };
+        let slope =
+            |axis: usize| (a[axis] as f64 * p.depth + b[axis] as f64 * q.depth + c[axis] as f64 * r.depth) * scale;
         Some(Self {
             edges: [a, b, c],
             scale,
