@@ -11,6 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let after = smoother.tikhonov(before, &TikhonovOptions { epsilon: 0.1, ..Default::default() })?.values;
 
     let mut options = SheetOptions::default();
+    (options.picture.width, options.picture.height) = (500, 440);
     options.picture.camera.direction = Some([0.15, 0.8, 0.8]);
     let png = sheet(&file.mesh, before, &after, &options)?;
     assert!(png.starts_with(b"\x89PNG"));
