@@ -15,7 +15,7 @@ const USUAL: f64 = 900.0;
 /// Thinner strokes and smaller text could not be made out.
 const SMALLEST: f64 = 0.55;
 /// Height of text in pictures of the usual size.
-const TEXT: f64 = 21.0;
+const TEXT: f64 = 24.0;
 /// Of a line of text with the room around it, by the height of text.
 const LINE: f64 = 2.2;
 /// Room beside a colour bar, above and below it, by the height of text.

@@ -24,7 +24,6 @@ const FAR: f64 = 1e5;
 pub(super) enum Anchor {
     Start,
     Middle,
-    End,
 }
 
 /// Height of capitals and digits.
@@ -72,7 +71,6 @@ pub(super) fn draw_text(pixmap: &mut PixmapMut<'_>, text: &str, x: f64, y: f64, 
     let along = match anchor {
         Anchor::Start => 0.0,
         Anchor::Middle => -0.5,
-        Anchor::End => -1.0,
     };
     let grid = Grid::new(size, x + along * text_width(text, size), y);
     let mut builder = PathBuilder::new();

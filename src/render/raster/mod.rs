@@ -38,7 +38,7 @@ pub(super) fn paint(
     let frame = Frame::of(pixmap, rectangle);
     let facets = Facets::new(surface, list, view, &frame)?;
     let mut tracks = Tracks::new(list, view)?;
-    if frame.width > 0 {
+    if frame.width > 0 && frame.height > 0 {
         let mut strip = Strip::new(&frame, (STRIP / (SAMPLES * SAMPLES * frame.width)).max(1))?;
         let rows = strip.rows();
         let binned = facets.by_strip(&frame, rows)?;
