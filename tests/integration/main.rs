@@ -18,6 +18,8 @@ mod extremes;
 mod features;
 mod fem;
 mod filters;
+#[cfg(feature = "render")]
+mod golden;
 mod hierarchy;
 mod intrinsic;
 mod intrinsic_properties;

@@ -10,5 +10,6 @@ mod planes;
 mod random;
 mod refused;
 mod shapes;
+mod sheets;
 mod surfaces;
 mod tracer;
