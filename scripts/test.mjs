@@ -18,7 +18,7 @@ const sections = [
   { name: 'Formatting and lints', run: () => runChecks(lints) },
   {
     name: 'Rust tests',
-    run: async () => rustResults(await execute('cargo', ['test', '--locked'], { show: true })),
+    run: async () => rustResults(await execute('cargo', ['test', '--locked', '--features', 'render'], { show: true })),
   },
   {
     name: 'Bindings, in Node',

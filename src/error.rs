@@ -444,6 +444,13 @@ stage_error! {
     }
 }
 
+impl OptionError {
+    /// An option out of its range.
+    pub(crate) fn invalid(option: &str, expected: &str) -> Self {
+        Self::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
+    }
+}
+
 /// Any failure of this crate.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -1,14 +1,14 @@
 //! From where one looks, and where that puts points into the picture.
 
-use super::options::invalid;
 use super::surface::{Axis, Surface};
 use crate::error::OptionError;
 use crate::mesh::{cross, dot, norm};
 
 /// Tangent of half the angle that the camera sees of the shorter side of a square picture: 15°.
 const TANGENT: f64 = 0.267_949_192_431_122_7;
-/// Room around the mesh for solids on its rim.
-const MARGIN: f64 = 1.08;
+/// Room around every point of the mesh for solids on its rim, and around all of it for the eye.
+const PAD: f64 = 0.05;
+const MARGIN: f64 = 1.03;
 /// Towards the camera, where things stand on y: x right, y up, z to the front.
 const STANDING: [f64; 3] = [0.55, 0.5, 0.9];
 /// The same of what lies flat, with z up.
@@ -55,7 +55,8 @@ impl View {
         let (width, height) = (rectangle.width, rectangle.height);
         let focus = 0.5 * width.min(height) / TANGENT;
         let tangents = [0.5 * width / focus, 0.5 * height / focus];
-        // A point (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan ≤ a + d·tan; likewise the others.
+        // A ball of radius r around (x, y, z) is inside the right edge of a camera at (a, b, d) if
+        // x + z·tan + r·√(1 + tan²) ≤ a + d·tan; likewise the others.
         let mut reach = [[f64::NEG_INFINITY; 2]; 2];
         for point in surface.positions.as_chunks::<3>().0 {
             let z = dot(*point, axes[2]);
@@ -64,6 +65,10 @@ impl View {
                 reach[i][0] = reach[i][0].max(z * tangents[i] + along);
                 reach[i][1] = reach[i][1].max(z * tangents[i] - along);
             }
+        }
+        for i in 0..2 {
+            let pad = PAD * (1.0 + tangents[i] * tangents[i]).sqrt();
+            reach[i] = [reach[i][0] + pad, reach[i][1] + pad];
         }
         let distances = [0, 1].map(|i| (reach[i][0] + reach[i][1]) / (2.0 * tangents[i]));
         let distance = MARGIN * distances[0].max(distances[1]).max(0.1);
@@ -82,7 +87,7 @@ impl View {
 
     /// A vector as the camera sees it: right, up, towards the camera.
     pub(super) fn turn(&self, vector: [f64; 3]) -> [f64; 3] {
-        self.axes.map(|axis| dot(vector, axis))
+        [dot(vector, self.axes[0]), dot(vector, self.axes[1]), dot(vector, self.axes[2])]
     }
 }
 
@@ -98,7 +103,7 @@ pub(super) struct Rectangle {
 fn axes(surface: &Surface, camera: &Camera) -> Result<[[f64; 3]; 3], OptionError> {
     let expected = "three finite numbers that are not all zero";
     let towards = match camera.direction {
-        Some(direction) => unit(direction).ok_or_else(|| invalid("camera.direction", expected))?,
+        Some(direction) => unit(direction).ok_or_else(|| OptionError::invalid("camera.direction", expected))?,
         None => default_direction(surface),
     };
     let usual = match surface.up {
@@ -106,7 +111,7 @@ fn axes(surface: &Surface, camera: &Camera) -> Result<[[f64; 3]; 3], OptionError
         Axis::Z => [0.0, 0.0, 1.0],
     };
     let wanted = match camera.up {
-        Some(up) => Some(unit(up).ok_or_else(|| invalid("camera.up", expected))?),
+        Some(up) => Some(unit(up).ok_or_else(|| OptionError::invalid("camera.up", expected))?),
         None => None,
     };
     let sideways = |up: [f64; 3]| {
@@ -114,9 +119,8 @@ fn axes(surface: &Surface, camera: &Camera) -> Result<[[f64; 3]; 3], OptionError
         (norm(right) > APART).then(|| unit(right)).flatten()
     };
     let right = match wanted {
-        Some(up) => {
-            sideways(up).ok_or_else(|| invalid("camera.up", "a direction that is not along `camera.direction`"))?
-        }
+        Some(up) => sideways(up)
+            .ok_or_else(|| OptionError::invalid("camera.up", "a direction that is not along `camera.direction`"))?,
         // Seen from above or below, what was at the back is up.
         None => sideways(usual)
             .or_else(|| sideways(if surface.up == Axis::Z { [0.0, 1.0, 0.0] } else { [0.0, 0.0, -1.0] }))

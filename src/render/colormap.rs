@@ -1,6 +1,5 @@
 //! From values to colours.
 
-use super::options::invalid;
 use crate::error::OptionError;
 
 /// Red, green and blue of the sRGB colour space.
@@ -68,7 +67,7 @@ impl Colormap {
         let found = MAPS.iter().find(|(known, _)| *known == name);
         found.map(|&(_, map)| map).ok_or_else(|| {
             let names: Vec<&str> = MAPS.iter().map(|&(name, _)| name).collect();
-            invalid("colormap", &format!("one of \"{}\"", names.join("\", \"")))
+            OptionError::invalid("colormap", &format!("one of \"{}\"", names.join("\", \"")))
         })
     }
 
@@ -107,8 +106,6 @@ pub(super) fn between(table: &[Rgb], t: f64) -> Rgb {
     let from = (place as usize).min(table.len() - 2);
     let (low, high) = (table[from], table[from + 1]);
     let part = place - from as f64;
-    [0, 1, 2].map(|c| {
-        let (low, high) = (f64::from(low[c]), f64::from(high[c]));
-        (low + part * (high - low) + 0.5) as u8
-    })
+    let mixed = |low: u8, high: u8| (f64::from(low) + part * (f64::from(high) - f64::from(low)) + 0.5) as u8;
+    [mixed(low[0], high[0]), mixed(low[1], high[1]), mixed(low[2], high[2])]
 }

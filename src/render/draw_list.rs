@@ -1,11 +1,11 @@
 //! What is drawn, as one flat list for every renderer: the pictures here and the page's viewer.
 
 use super::colormap::{Rgb, between};
-use super::options::{DrawOptions, Glyphs, Levels, Separatrices, invalid};
+use super::options::{DrawOptions, Glyphs, Levels, Separatrices};
 use super::solids::{Shape, ball, octahedron, tetrahedron};
-use super::style;
+use super::style::{self, Light, Rim, SolidSize, Stroke};
 use super::surface::Surface;
-use crate::error::{Error, FieldError};
+use crate::error::{Error, FieldError, OptionError};
 use crate::field::{self, CriticalKind, CriticalPoint, DeltaOptions, LevelSets, MorseComplex, PathStyle, value_range};
 use crate::mesh::TriMesh;
 
@@ -70,28 +70,6 @@ pub struct Lines {
     pub stroke: Stroke,
 }
 
-/// How lines are drawn. Widths are pixels of the page, or of a picture 900 pixels high.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stroke {
-    /// The colour.
-    pub color: Rgb,
-    /// The width.
-    pub width: f64,
-    /// 0 to 1.
-    pub opacity: f64,
-    /// A line under it, so that it stands out from any colour.
-    pub casing: Option<Casing>,
-}
-
-/// The line under a line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Casing {
-    /// The colour.
-    pub color: Rgb,
-    /// The width.
-    pub width: f64,
-}
-
 /// Instances of one solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solids {
@@ -115,45 +93,6 @@ pub struct Solids {
     pub radius: f64,
     /// How many radii it stands above the surface.
     pub lift: f64,
-}
-
-/// The same solid, larger and seen from its inside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rim {
-    /// The colour.
-    pub color: Rgb,
-    /// How much larger.
-    pub scale: f64,
-}
-
-/// The radius of n solids is √(cover / n), within two bounds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolidSize {
-    /// As above.
-    pub cover: f64,
-    /// The smallest radius.
-    pub least: f64,
-    /// The largest radius.
-    pub most: f64,
-}
-
-impl SolidSize {
-    /// The radius of so many.
-    #[must_use]
-    pub fn radius(&self, count: usize) -> f64 {
-        (self.cover / count.max(1) as f64).sqrt().min(self.most).max(self.least)
-    }
-}
-
-/// Light from everywhere, and from one direction as the camera sees it: right, up, towards the camera.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Light {
-    /// What of a colour is seen without the other light.
-    pub ambient: f64,
-    /// What comes on top where the surface faces the light.
-    pub diffuse: f64,
-    /// A unit vector.
-    pub direction: [f64; 3],
 }
 
 impl DrawList {
@@ -216,12 +155,15 @@ fn level_lines<'a>(
         Levels::None => return Ok((Vec::new(), None)),
         Levels::Traced(sets) => {
             let mut levels = sets.levels.clone();
+            if levels.len() != sets.closed.len() || levels.iter().any(|level| !level.is_finite()) {
+                return Err(OptionError::invalid("levels", "lines with a finite level each").into());
+            }
             levels.sort_by(f64::total_cmp);
             levels.dedup();
             return Ok((levels, Some(Cow::Borrowed(sets))));
         }
         Levels::Count(count) if count > MOST_LEVELS => {
-            return Err(invalid("levels.count", "an integer from 0 to 10000").into());
+            return Err(OptionError::invalid("levels.count", "an integer from 0 to 10000").into());
         }
         Levels::Count(count) if high > low => {
             let part = |k: u32| f64::from(k) / f64::from(count + 1);
@@ -243,7 +185,7 @@ fn placed_levels(surface: &Surface, sets: &LevelSets) -> Result<Lines, Error> {
     let (points, rest) = sets.points.as_chunks::<3>();
     let points: Vec<f64> = points.iter().flat_map(|&point| surface.place(point)).collect();
     if !is_whole || !rest.is_empty() || points.iter().any(|x| !x.is_finite()) {
-        return Err(invalid("levels", expected).into());
+        return Err(OptionError::invalid("levels", expected).into());
     }
     let offsets = sets.offsets.clone();
     Ok(Lines { role: Role::Levels, points, offsets, closed: sets.closed.clone(), stroke: style::LEVELS })
@@ -271,7 +213,7 @@ fn separatrices(
     };
     let expected = "lines with a kind each, whose offsets ascend from 0 to the number of vertices";
     if !are_offsets(&complex.offsets, complex.vertices.len()) || complex.kinds.len() + 1 != complex.offsets.len() {
-        return Err(invalid("morseComplex", expected).into());
+        return Err(OptionError::invalid("morseComplex", expected).into());
     }
     check_vertices(mesh, complex.vertices.iter().copied())?;
     let of_kind = |(kind, role, stroke)| {

@@ -79,7 +79,7 @@ impl DrawOptions<'_> {
     pub(super) fn check(&self) -> Result<(), OptionError> {
         match self.range {
             Some([low, high]) if !(low < high && (high - low).is_finite()) => {
-                Err(invalid("range", "two finite numbers, the smaller one first"))
+                Err(OptionError::invalid("range", "two finite numbers, the smaller one first"))
             }
             _ => Ok(()),
         }
@@ -141,17 +141,62 @@ impl Default for SheetOptions<'_> {
     }
 }
 
-pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
-    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
-}
-
 impl SnapshotOptions<'_> {
     pub(super) fn check(&self) -> Result<(), OptionError> {
         for (option, side) in [("width", self.width), ("height", self.height)] {
             if !(1..=LARGEST_SIDE).contains(&side) {
-                return Err(invalid(option, "an integer from 1 to 8192"));
+                return Err(OptionError::invalid(option, "an integer from 1 to 8192"));
             }
         }
         Ok(())
+    }
+}
+
+impl SheetOptions<'_> {
+    pub(super) fn check(&self) -> Result<(), OptionError> {
+        self.picture.check()?;
+        self.picture.draw.check()?;
+        let draw = &self.picture.draw;
+        for (option, is_of_one) in [
+            ("levels", matches!(draw.levels, Levels::Traced(_))),
+            ("criticalPoints", matches!(draw.critical_points, Glyphs::Points(_))),
+            ("morseComplex", matches!(draw.morse_complex, Separatrices::Traced(_))),
+        ] {
+            if is_of_one {
+                let reason = "a sheet shows several fields, and these lines or points belong to one".to_owned();
+                return Err(OptionError::InapplicableOption { option: option.to_owned(), reason });
+            }
+        }
+        match self.largest_difference {
+            Some(largest) if !(largest > 0.0 && (2.0 * largest).is_finite()) => {
+                Err(OptionError::invalid("largestDifference", "a positive finite number"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Of the sheet as a whole.
+    pub(super) fn check_total(&self, [width, height]: [f64; 2]) -> Result<(), OptionError> {
+        for (option, side) in [("width", width), ("height", height)] {
+            if side > f64::from(LARGEST_SIDE) {
+                return Err(OptionError::invalid(
+                    option,
+                    "a smaller number: the whole sheet may have 8192 pixels along a side",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// How the difference is drawn.
+    pub(super) fn difference(&self, range: Option<[f64; 2]>) -> DrawOptions<'static> {
+        DrawOptions {
+            colormap: self.difference_colormap,
+            range,
+            levels: Levels::None,
+            bands: false,
+            critical_points: Glyphs::None,
+            morse_complex: Separatrices::None,
+        }
     }
 }

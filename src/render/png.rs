@@ -25,9 +25,9 @@ impl Picture {
         Ok(Self { width, height, bytes })
     }
 
-    pub(super) fn pixmap(&mut self) -> Result<PixmapMut<'_>, FieldError> {
-        let bytes = self.bytes.len() as u64;
-        PixmapMut::from_bytes(&mut self.bytes, self.width, self.height).ok_or(FieldError::OutOfMemory { bytes })
+    /// To draw into. Nothing only where the size does not fit the bytes, which it does.
+    pub(super) fn pixmap(&mut self) -> Option<PixmapMut<'_>> {
+        PixmapMut::from_bytes(&mut self.bytes, self.width, self.height)
     }
 
     /// Red, green and blue, eight bits each. Row by row, so that there is no second copy of the pixels.

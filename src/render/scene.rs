@@ -1,13 +1,11 @@
 //! A mesh that is drawn, once or more often.
 
-use super::camera::{Rectangle, View};
 use super::draw_list::DrawList;
 use super::options::{DrawOptions, SheetOptions, SnapshotOptions};
-use super::png::Picture;
-use super::raster::paint;
-use super::style;
+use super::page::{Page, Text};
 use super::surface::Surface;
-use crate::error::Error;
+use crate::error::{Error, FieldError};
+use crate::field::value_range;
 use crate::mesh::TriMesh;
 
 /// A mesh that is drawn more than once.
@@ -57,34 +55,93 @@ impl Scene {
     pub fn snapshot(&self, values: &[f64], options: &SnapshotOptions<'_>) -> Result<Vec<u8>, Error> {
         options.check()?;
         let list = self.draw_list(values, &options.draw)?;
-        let mut picture = Picture::new(options.width, options.height, style::BACKGROUND)?;
-        let mut pixmap = picture.pixmap()?;
-        let all = Rectangle { x: 0.0, y: 0.0, width: f64::from(options.width), height: f64::from(options.height) };
-        let view = View::framing(&self.surface, &options.camera, &all)?;
-        let unit = (all.width.min(all.height) / 900.0).max(0.5);
-        paint(&mut pixmap, &all, &self.surface, &list, &view, unit)?;
-        Ok(picture.to_png()?)
+        let (width, height) = (f64::from(options.width), f64::from(options.height));
+        let text = Text::for_picture(width, height);
+        let above = text.line(options.title);
+        let bar = if options.color_bar { text.bar(&list, width, height - above) } else { 0.0 };
+        let mut page = Page::new(width, height, text)?;
+        page.title(options.title, 0.0, 0.0, width);
+        let picture = [0.0, above, width - bar, height - above];
+        page.picture(&self.surface, &list, &options.camera, picture)?;
+        page.legend(&list, [width - bar, above, bar, height - above]);
+        Ok(page.to_png()?)
     }
 
     /// See [`sheet`].
     ///
     /// # Errors
     /// Likewise.
-    pub fn sheet(&self, before: &[f64], _after: &[f64], options: &SheetOptions<'_>) -> Result<Vec<u8>, Error> {
-        self.snapshot(before, &options.picture)
+    pub fn sheet(&self, before: &[f64], after: &[f64], options: &SheetOptions<'_>) -> Result<Vec<u8>, Error> {
+        options.check()?;
+        let picture = &options.picture;
+        let draw = DrawOptions { range: Some(self.common_range(before, after, picture.draw.range)?), ..picture.draw };
+        // A constant has no range to divide.
+        let draw = DrawOptions { range: draw.range.filter(|[low, high]| low < high), ..draw };
+        let (difference, largest) = self.difference(before, after)?;
+        let largest = options.largest_difference.unwrap_or(largest);
+        let change = options.difference(if largest > 0.0 { Some([-largest, largest]) } else { None });
+        let lists =
+            [self.draw_list(before, &draw)?, self.draw_list(after, &draw)?, self.draw_list(&difference, &change)?];
+
+        let (width, height) = (f64::from(picture.width), f64::from(picture.height));
+        let text = Text::for_picture(width, height);
+        let above = text.line(picture.title);
+        let title = options.titles.iter().map(|title| text.line(title)).fold(0.0, f64::max);
+        let bar = |list| if picture.color_bar { text.bar(list, f64::INFINITY, height) } else { 0.0 };
+        let bars = [0.0, bar(&lists[1]), bar(&lists[2])];
+        let total = [3.0 * width + bars[1] + bars[2], above + title + height];
+        options.check_total(total)?;
+        let mut page = Page::new(total[0], total[1], text)?;
+        page.title(picture.title, 0.0, 0.0, total[0]);
+        let mut left = 0.0;
+        for ((list, title_of), bar) in lists.iter().zip(options.titles).zip(bars) {
+            page.title(title_of, left, above, width);
+            page.picture(&self.surface, list, &picture.camera, [left, above + title, width, height])?;
+            page.legend(list, [left + width, above + title, bar, height]);
+            left += width + bar;
+        }
+        Ok(page.to_png()?)
+    }
+
+    /// The given range, or that of both fields.
+    fn common_range(&self, before: &[f64], after: &[f64], given: Option<[f64; 2]>) -> Result<[f64; 2], FieldError> {
+        let connectivity = self.mesh.connectivity();
+        let (f, g) = (value_range(connectivity, before)?, value_range(connectivity, after)?);
+        let range = given.unwrap_or([f.min.min(g.min), f.max.max(g.max)]);
+        if (range[1] - range[0]).is_finite() { Ok(range) } else { Err(FieldError::RangeOverflow {}) }
+    }
+
+    /// after − before, and the largest difference on the surface.
+    fn difference(&self, before: &[f64], after: &[f64]) -> Result<(Vec<f64>, f64), FieldError> {
+        let difference: Vec<f64> = before.iter().zip(after).map(|(f, g)| g - f).collect();
+        let largest = self.surface.vertices.iter().map(|&v| difference[v as usize].abs()).fold(0.0, f64::max);
+        if (2.0 * largest).is_finite() && difference.iter().all(|x| x.is_finite()) {
+            Ok((difference, largest))
+        } else {
+            Err(FieldError::RangeOverflow {})
+        }
     }
 }
 
-/// Draws a field on a mesh, as a PNG file.
+/// Draws a field on a mesh, as a PNG file: a shaded surface with the colours of the values, level sets, critical points, on demand
+/// bands and the Morse complex, and a bar that says which colour is which value.
+///
+/// # Properties
+/// The same bytes on every platform. Red, green and blue, eight bits each, on white. Level sets are drawn within 0.6 pixels of where
+/// they are. O(vertices + triangles + pixels).
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `NonFiniteLevel`; `IndexOutOfBounds` for a vertex that does not exist;
 /// `InvalidOption`; `OutOfMemory`.
+///
+/// # Example
+/// See [`Scene`].
 pub fn snapshot(mesh: &TriMesh, values: &[f64], options: &SnapshotOptions<'_>) -> Result<Vec<u8>, Error> {
     Scene::new(mesh).snapshot(values, options)
 }
 
-/// Draws two fields on a mesh and after − before, side by side, as one PNG file.
+/// Draws two fields on a mesh and after − before, side by side, as one PNG file: the two with the same colours and levels, the
+/// difference with colours around zero and nothing else.
 ///
 /// # Errors
 /// As [`snapshot`], and `InapplicableOption` for lines or points of one field.

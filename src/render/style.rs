@@ -1,7 +1,6 @@
 //! How things look: the one place for colours, widths and sizes, of the pictures and of the page.
 
 use super::colormap::Rgb;
-use super::draw_list::{Casing, Light, Rim, SolidSize, Stroke};
 
 pub(super) const BACKGROUND: Rgb = [255, 255, 255];
 /// Of text, ticks and frames.
@@ -37,3 +36,64 @@ pub(super) const LIFT: f64 = 0.8;
 pub(super) const SIZE: SolidSize = SolidSize { cover: 0.04, least: 0.004, most: 0.02 };
 /// From so many on, balls are seen with a few pixels each and need not be round.
 pub(super) const CROWD: usize = 300;
+
+/// How lines are drawn. Widths are pixels of the page, or of a picture 900 pixels high.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// The colour.
+    pub color: Rgb,
+    /// The width.
+    pub width: f64,
+    /// 0 to 1.
+    pub opacity: f64,
+    /// A line under it, so that it stands out from any colour.
+    pub casing: Option<Casing>,
+}
+
+/// The line under a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Casing {
+    /// The colour.
+    pub color: Rgb,
+    /// The width.
+    pub width: f64,
+}
+
+/// The same solid, larger and seen from its inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rim {
+    /// The colour.
+    pub color: Rgb,
+    /// How much larger.
+    pub scale: f64,
+}
+
+/// The radius of n solids is √(cover / n), within two bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolidSize {
+    /// As above.
+    pub cover: f64,
+    /// The smallest radius.
+    pub least: f64,
+    /// The largest radius.
+    pub most: f64,
+}
+
+impl SolidSize {
+    /// The radius of so many.
+    #[must_use]
+    pub fn radius(&self, count: usize) -> f64 {
+        (self.cover / count.max(1) as f64).sqrt().min(self.most).max(self.least)
+    }
+}
+
+/// Light from everywhere, and from one direction as the camera sees it: right, up, towards the camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Light {
+    /// What of a colour is seen without the other light.
+    pub ambient: f64,
+    /// What comes on top where the surface faces the light.
+    pub diffuse: f64,
+    /// A unit vector.
+    pub direction: [f64; 3],
+}

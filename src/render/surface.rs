@@ -76,7 +76,8 @@ impl Surface {
             plane: extent.plane(),
             center: extent.center,
             size: extent.size,
-            area: mesh.area() / extent.size / extent.size,
+            // Not the mesh's, which is too small a number for what is tiny.
+            area: faces.iter().map(|&face| 0.5 * norm(face)).sum(),
             first_corner: Vec::new(),
         };
         surface.split(connectivity, &faces, &turned);
@@ -94,7 +95,8 @@ impl Surface {
     /// Where a point of the mesh is drawn.
     #[must_use]
     pub fn place(&self, point: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| (point[i] - self.center[i]) / self.size)
+        let [x, y, z] = difference(point, self.center);
+        [x / self.size, y / self.size, z / self.size]
     }
 
     /// What stands upright on the surface at a vertex: the mean of its normals.
@@ -175,7 +177,8 @@ impl Extent {
     }
 
     fn place(&self, point: [f64; 3]) -> [f64; 3] {
-        difference(point, self.center).map(|x| x / self.size)
+        let [x, y, z] = difference(point, self.center);
+        [x / self.size, y / self.size, z / self.size]
     }
 
     fn up(&self) -> Axis {

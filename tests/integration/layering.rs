@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// What a module of the crate may import from it. The bindings may import anything.
-const MAY_IMPORT: [(&str, &[&str]); 7] = [
+const MAY_IMPORT: [(&str, &[&str]); 8] = [
     ("error", &[]),
     ("io", &["error"]),
     ("mesh", &["error", "io"]),
@@ -11,6 +11,7 @@ const MAY_IMPORT: [(&str, &[&str]); 7] = [
     ("field", &["error", "mesh"]),
     ("solve", &["error"]),
     ("smooth", &["error", "mesh", "operators", "field", "solve"]),
+    ("render", &["error", "mesh", "field"]),
 ];
 
 /// Words that the numerical core does without, so that results depend on no platform, clock, hash order or global state.
@@ -78,6 +79,19 @@ const SMOOTH: [&[&str]; 9] = [
     &["tikhonov"],
     &["least_squares", "interpolate", "filters"],
     &["mod"],
+];
+
+/// The files and folders of `render`, likewise.
+const RENDER: [&[&str]; 9] = [
+    &["colormap", "solids", "surface"],
+    &["camera", "style"],
+    &["options"],
+    &["draw_list"],
+    &["raster", "font", "ticks", "png"],
+    &["text"],
+    &["legend"],
+    &["page"],
+    &["scene", "mod"],
 ];
 
 /// The bibliography.
@@ -184,6 +198,9 @@ fn violations(path: &str, source: &str) -> Vec<String> {
         return found;
     }
     forbid(&["js_sys", "web_sys", "wasm_bindgen"], "only the bindings know JavaScript");
+    if module != "render" {
+        forbid(&["tiny_skia", "png::", "colorous"], "only `render` draws");
+    }
     if path != "mesh/shapes.rs" {
         forbid(&NOT_IN_THE_CORE, "results must not depend on the platform");
     }
@@ -196,7 +213,7 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     if let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_suffix(".rs")) {
         found.extend(disorder(name, &code).into_iter().map(|what| format!("{path} {what}")));
     }
-    for (module, groups) in [("field", &FIELD[..]), ("smooth", &SMOOTH[..])] {
+    for (module, groups) in [("field", &FIELD[..]), ("smooth", &SMOOTH[..]), ("render", &RENDER[..])] {
         let Some(name) = path.strip_prefix(module).and_then(|name| name.strip_prefix('/')) else { continue };
         let from_crate = format!("{module}::");
         let (name, paths) = match name.split_once('/') {
@@ -300,6 +317,9 @@ fn the_check_catches_what_it_is_for() {
         ("smooth/report.rs", "use super::tikhonov::TikhonovOptions;"),
         ("smooth/mod.rs", "let t = std::time::Instant::now();"),
         ("smooth/mod.rs", "use wasm_bindgen::prelude::*;"),
+        ("field/level/bands.rs", "use tiny_skia::Pixmap;"),
+        ("render/draw_list.rs", "use super::raster::paint;"),
+        ("render/scene.rs", "use crate::smooth::Smoother;"),
         ("error.rs", "use crate::io::MeshFormat;"),
         ("wasm/mod.rs", "static mut STATE: u32 = 0;"),
         ("clock/mod.rs", "fn f() {}"),

@@ -42,3 +42,5 @@ mod smooth;
 mod smooth_iterative;
 mod solve;
 mod support;
+#[cfg(feature = "render")]
+mod ticks;

@@ -20,6 +20,18 @@ const expected = {
   code: 'IndexOutOfBounds',
 };
 
+const run = (...parameters) =>
+  JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
+
+/** What draw.js finds: the bytes of the picture, and so their sum, are the same everywhere. */
+const drawn = {
+  signature: 0x89504e47,
+  size: [160, 120],
+  sum: run('snapshot.mjs').sum,
+  vertices: [0, 1, 2, 3, 4],
+  code: 'UseAfterFree',
+};
+
 describe('the package', () => {
   it('holds what users need and nothing else', () => {
     expect(inject('packed')).toEqual([
@@ -28,14 +40,22 @@ describe('the package', () => {
       'LICENSE-MIT',
       'README.md',
       'dist/core.js',
+      'dist/error.cjs',
+      'dist/error.js',
       'dist/index.d.cts',
       'dist/index.d.ts',
       'dist/index.js',
       'dist/inline.d.ts',
       'dist/inline.js',
       'dist/morse_smooth_bg.wasm',
+      'dist/morse_smooth_snapshot_bg.wasm',
       'dist/node.cjs',
       'dist/node.mjs',
+      'dist/snapshot-node.cjs',
+      'dist/snapshot-node.mjs',
+      'dist/snapshot.d.cts',
+      'dist/snapshot.d.ts',
+      'dist/snapshot.js',
       'dist/wasm-base64.js',
       'package.json',
     ]);
@@ -63,7 +83,7 @@ describe('the package', () => {
   });
 
   it('has no Node module, await at the top or eval in what browsers load', () => {
-    for (const name of ['index.js', 'core.js', 'inline.js']) {
+    for (const name of ['index.js', 'core.js', 'error.js', 'inline.js', 'snapshot.js']) {
       const source = readFileSync(join(dist, name), 'utf8');
       expect(source).not.toMatch(/node:|require\(|^await |\beval\(|new Function/m);
     }
@@ -78,9 +98,6 @@ describe('the package', () => {
 });
 
 describe('Node', () => {
-  const run = (...parameters) =>
-    JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
-
   it('imports it', () => {
     expect(run('import.mjs')).toEqual({ ...expected, oneInstance: true });
   });
@@ -104,10 +121,23 @@ describe('Node', () => {
     expect(run('inline.mjs')).toEqual(expected);
   });
 
-  it('finds the wasm file and package.json under their own names', () => {
-    const script =
-      "console.log(JSON.stringify(['morse_smooth_bg.wasm', 'package.json'].map((x) => require.resolve('morse-smooth/' + x))))";
-    expect(run('-e', script)).toEqual([join(dist, 'morse_smooth_bg.wasm'), join(dist, '..', 'package.json')]);
+  it('imports the pictures, whose errors are of the same class', () => {
+    expect(run('snapshot.mjs')).toEqual({ ...drawn, oneInstance: true, oneError: true });
+  });
+
+  it('requires the pictures, and reads each module for its own entry only', () => {
+    expect(run('snapshot.cjs')).toEqual({
+      ...drawn,
+      keys: ['MorseSmoothError', 'Scene', 'default', 'sheet', 'snapshot'],
+      alone: ['morse_smooth_snapshot_bg.wasm'],
+      both: ['morse_smooth_snapshot_bg.wasm', 'morse_smooth_bg.wasm'],
+    });
+  });
+
+  it('finds the wasm files and package.json under their own names', () => {
+    const names = ['morse_smooth_bg.wasm', 'morse_smooth_snapshot_bg.wasm', 'package.json'];
+    const script = `console.log(JSON.stringify(${JSON.stringify(names)}.map((x) => require.resolve('morse-smooth/' + x))))`;
+    expect(run('-e', script)).toEqual([join(dist, names[0]), join(dist, names[1]), join(dist, '..', names[2])]);
   });
 });
 
@@ -125,6 +155,8 @@ describe('Chromium', () => {
   const throughVite = {
     page: expected,
     inline: expected,
+    picture: drawn,
+    oneError: true,
     worker: expected,
     byteLength: readFileSync(join(dist, 'morse_smooth_bg.wasm')).length,
   };
@@ -157,7 +189,8 @@ describe('Chromium', () => {
     const headers = { 'content-security-policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'" };
     const server = await serveFolder(installed, headers);
     try {
-      expect(await resultOf(`${server.url}/static/index.html`)).toEqual(expected);
+      const result = await resultOf(`${server.url}/static/index.html`);
+      expect(result).toEqual({ page: expected, picture: drawn });
     } finally {
       await server.close();
     }

@@ -1,20 +1,30 @@
 // The README shows the examples that are there, and they run; so does the other one.
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { expect, it } from 'vitest';
+import { afterAll, beforeAll, expect, it } from 'vitest';
+import { readMesh } from '../../dist/node.mjs';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
-const run = (name) => execFileSync(process.execPath, [join('examples', name)], { cwd: root, encoding: 'utf8' });
+const run = (name, ...more) =>
+  execFileSync(process.execPath, [join('examples', name), ...more], { cwd: root, encoding: 'utf8' });
 const read = (...parts) => readFileSync(join(root, ...parts), 'utf8').replaceAll('\r\n', '\n');
+
+let folder;
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), 'morse-smooth-examples-'));
+});
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
 it('shows twelve lines of JavaScript that run', () => {
   const example = read('examples', 'smooth.mjs');
   const blocks = [...read('README.md').matchAll(/^```js\n([^]*?)^```/gm)].map((match) => match[1]);
   expect(blocks[0]).toBe(example);
-  // The rest are parts of the other one.
-  for (const block of blocks.slice(1)) expect(read('examples', 'constraints.mjs')).toContain(block);
+  // The rest are parts of others.
+  const others = read('examples', 'constraints.mjs') + read('examples', 'sheet.mjs');
+  for (const block of blocks.slice(1)) expect(others).toContain(block);
   expect(example.trimEnd().split('\n')).toHaveLength(12);
 
   expect(run('smooth.mjs')).toMatch(/^minima 571 → 2, maxima 574 → 1\n/);
@@ -35,4 +45,39 @@ it('keeps the critical points that are constrained', () => {
     'interpolated: 571, 574, 1145 → 3, 5, 8, changed by at most 30.8 %',
     'pulled: 571, 574, 1145 → 2, 1, 3, changed by at most 15.1 %',
   ]);
+});
+
+it('prints the critical points of a file', () => {
+  const lines = run('critical-points.mjs').trimEnd().split('\n');
+  // The clean field of the torus is a height: the textbook's four points.
+  expect(lines).toHaveLength(5);
+  expect(lines.slice(0, 4).map((line) => line.split(' ')[0]).sort()).toEqual(['maximum', 'minimum', 'saddle', 'saddle']); // prettier-ignore
+  expect(lines[4]).toBe('1 − 2 + 1 = 0: 0');
+});
+
+it('writes a field that has kept its persistent critical points', () => {
+  const path = join(folder, 'kept.ply');
+  const kept = /: kept (\d+) of (\d+) critical points\n/.exec(run('keep.mjs', path));
+  expect(kept[1]).toBe(kept[2]);
+  const { mesh, fields } = readMesh(readFileSync(path));
+  const [before, after] = Object.values(fields);
+  const rule = { from: 'persistence', threshold: 0.1, stars: false };
+  const features = mesh.constrainedVertices(before, rule);
+  expect(features).toHaveLength(Number(kept[2]));
+  const kindsOf = (field) => {
+    const { vertices, kinds } = mesh.criticalPoints(field);
+    return new Map([...vertices].map((vertex, k) => [vertex, kinds[k]]));
+  };
+  const [was, is] = [kindsOf(before), kindsOf(after)];
+  for (const v of features) {
+    expect(after[v]).toBe(before[v]);
+    expect(is.get(v)).toBe(was.get(v));
+  }
+  mesh.free();
+});
+
+it("draws the README's picture", () => {
+  const path = join(folder, 'sheet.png');
+  run('sheet.mjs', path);
+  expect(readFileSync(path).equals(readFileSync(join(root, 'docs', 'sheet.png')))).toBe(true);
 });

@@ -1,5 +1,6 @@
 // The same types from CommonJS.
 import morse = require('morse-smooth');
+import pictures = require('morse-smooth/snapshot');
 
 const { TriMesh, smooth } = morse;
 const { values } = smooth(new TriMesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]), [1, 2, 3], { epsilon: 1 });
@@ -7,4 +8,10 @@ const ready: Promise<void> = morse.default();
 // @ts-expect-error ε has no default
 smooth(new TriMesh([], []), values, {});
 
-export = { values, ready };
+const png: Uint8Array = pictures.snapshot([0, 0, 0], [0, 0, 0], values, { camera: { up: [0, 1, 0] } });
+const drawable: Promise<void> = pictures.default();
+const isOurs = (error: unknown): error is morse.MorseSmoothError => error instanceof pictures.MorseSmoothError;
+// @ts-expect-error there is no such option
+pictures.snapshot([], [], [], { colour: true });
+
+export = { values, ready, png, drawable, isOurs };

@@ -1,6 +1,6 @@
 import { toNumbers, toTriangles } from '../convert.js';
 import { attempt } from '../error.js';
-import { Handle } from '../handle.js';
+import { Handle, makeDisposable } from '../handle.js';
 import { instance } from './instance.js';
 import { toPictureOptions } from './options.js';
 
@@ -43,6 +43,7 @@ export class Scene {
     this.#handle.free();
   }
 }
+makeDisposable(Scene);
 
 export function snapshot(positions, triangles, values, options) {
   return once(positions, triangles, (scene) => scene.snapshot(values, options));

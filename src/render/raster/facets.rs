@@ -82,7 +82,8 @@ impl Facets {
             let turn = |point: [f64; 3]| turned(point, axis);
             for (&point, &normal) in shape.positions.iter().zip(&shape.normals) {
                 let point = turn(point);
-                let at = [0, 1, 2].map(|i| place[i] + solids.radius * (solids.lift * axis[i] + scale * point[i]));
+                let at = |i: usize| place[i] + solids.radius * (solids.lift * axis[i] + scale * point[i]);
+                let at = [at(0), at(1), at(2)];
                 self.corner(view, frame, at, turn(normal));
             }
             self.triangles.extend(shape.triangles.iter().map(|corners| corners.map(|corner| first + corner)));

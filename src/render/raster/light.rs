@@ -2,7 +2,7 @@
 
 use crate::mesh::{dot, norm};
 use crate::render::colormap::Rgb;
-use crate::render::draw_list::Light;
+use crate::render::style::Light;
 
 /// Steps of linear light: the darkest are less than half a step of sRGB apart.
 const STEPS: usize = 8192;
@@ -25,10 +25,11 @@ impl Lamp {
         let length = norm(normal);
         let facing = if length > 0.0 { (dot(normal, self.light.direction) / length).max(0.0) } else { 0.0 };
         let light = glow + self.light.ambient + self.light.diffuse * facing;
-        color.map(|byte| {
-            let linear = (light * self.linear[usize::from(byte)]).min(1.0);
-            self.encoded[(linear * STEPS as f64 + 0.5) as usize]
-        })
+        let lit = |byte: u8| {
+            let linear = light * self.linear[usize::from(byte)];
+            self.encoded[if linear < 1.0 { (linear * STEPS as f64 + 0.5) as usize } else { STEPS }]
+        };
+        [lit(color[0]), lit(color[1]), lit(color[2])]
     }
 }
 

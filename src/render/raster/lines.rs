@@ -128,6 +128,8 @@ impl Track {
         let count = seen.len();
         let mut pieces = Vec::new();
         let mut points: Vec<[f64; 2]> = Vec::new();
+        // How far a piece has come within a segment: what is between its corners need not be kept.
+        let mut reached = None;
         let mut segment = self.probes.partition_point(|&place| place <= first + start) - 1;
         for k in 0..count {
             let place = (start + k) % count;
@@ -142,11 +144,16 @@ impl Track {
                 if points.is_empty() {
                     points.push(from);
                 }
-                points.push(to);
+                reached = Some(to);
+                if first + place + 1 == self.probes[segment + 1] {
+                    points.extend(reached.take());
+                }
             } else if !points.is_empty() {
+                points.extend(reached.take());
                 pieces.push(Piece { points: core::mem::take(&mut points), closed: false });
             }
         }
+        points.extend(reached);
         if !points.is_empty() {
             pieces.push(Piece { points, closed: false });
         }

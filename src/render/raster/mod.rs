@@ -4,9 +4,11 @@
 //! with the picture. While a strip's depths are there, lines ask them which of their pieces are seen; those are drawn as smooth
 //! strokes at the end.
 
+mod brush;
 mod facets;
 mod light;
 mod lines;
+mod plane;
 mod strip;
 
 use tiny_skia::PixmapMut;
@@ -36,7 +38,7 @@ pub(super) fn paint(
     let frame = Frame::of(pixmap, rectangle);
     let facets = Facets::new(surface, list, view, &frame)?;
     let mut tracks = Tracks::new(list, view)?;
-    if frame.width > 0 {
+    if frame.width > 0 && frame.height > 0 {
         let mut strip = Strip::new(&frame, (STRIP / (SAMPLES * SAMPLES * frame.width)).max(1))?;
         let rows = strip.rows();
         let binned = facets.by_strip(&frame, rows)?;

@@ -87,5 +87,5 @@ fn require(valid: bool, option: &str, expected: &str) -> Result<(), OptionError>
     if valid {
         return Ok(());
     }
-    Err(OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() })
+    Err(OptionError::invalid(option, expected))
 }

@@ -1,6 +1,8 @@
 import init, * as api from 'morse-smooth';
 import initInline, * as inline from 'morse-smooth/inline';
 import wasmUrl from 'morse-smooth/morse_smooth_bg.wasm?url';
+import initPictures, * as pictures from 'morse-smooth/snapshot';
+import { draw } from '../draw.js';
 import { use } from '../use.js';
 
 const inWorker = () =>
@@ -13,8 +15,17 @@ const inWorker = () =>
 async function all() {
   await init();
   await initInline();
+  await initPictures();
   const { byteLength } = await (await fetch(wasmUrl)).arrayBuffer();
-  return { page: use(api), inline: use(inline), worker: await inWorker(), byteLength };
+  const oneError = pictures.MorseSmoothError === api.MorseSmoothError;
+  return {
+    page: use(api),
+    inline: use(inline),
+    picture: draw(pictures),
+    oneError,
+    worker: await inWorker(),
+    byteLength,
+  };
 }
 
 all().then(

@@ -1,0 +1,18 @@
+// node examples/critical-points.mjs file field: reads a mesh with its fields and prints the critical points of one.
+import { readFileSync } from 'node:fs';
+import init, { readMesh } from 'morse-smooth';
+
+const [file = 'www/public/examples/torus_irregular.ply', name = 'clean'] = process.argv.slice(2);
+await init(); // loads the WebAssembly module in a browser; Node has done so on import
+const { mesh, fields, warnings } = readMesh(readFileSync(file));
+for (const { message } of warnings) console.log(`warning: ${message}`);
+if (!fields[name]) throw new Error(`${file} has no field ${name}, but ${Object.keys(fields).join(', ')}`);
+
+const { vertices, kinds, counts } = mesh.criticalPoints(fields[name]);
+vertices.forEach((vertex, k) => {
+  const kind = { '-1': 'minimum', 0: 'saddle', 1: 'maximum' }[kinds[k]];
+  console.log(`${kind.padEnd(8)} vertex ${vertex}, value ${fields[name][vertex]}`);
+});
+const { minima, saddles, maxima } = counts;
+console.log(`${minima} − ${saddles} + ${maxima} = ${minima - saddles + maxima}: ${mesh.topology.eulerCharacteristic}`);
+mesh.free();
