@@ -4,8 +4,9 @@ import type { Matrix4, PerspectiveCamera } from 'three';
 
 /** Tangent of half the angle that is seen of the shorter side: 15°. */
 const TANGENT = Math.tan(Math.PI / 12);
-/** Room around the mesh for solids on its rim. */
-const MARGIN = 1.08;
+/** Room around every point for solids on the rim, and around all of it for the eye. */
+const PAD = 0.05;
+const MARGIN = 1.03;
 
 /** Of half the angles that are seen, sideways and upwards. */
 const tangents = (aspect: number): [number, number] => [TANGENT * Math.max(1, aspect), TANGENT / Math.min(1, aspect)];
@@ -22,7 +23,8 @@ export function frame(camera: PerspectiveCamera, positions: Float32Array, model:
   camera.updateMatrixWorld();
   const turn = camera.matrixWorldInverse.clone().setPosition(0, 0, 0).multiply(model);
   const [tangentX, tangentY] = tangents(camera.aspect);
-  // A point (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan ≤ a + d·tan; likewise the other edges.
+  // A ball of radius r around (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan + r·√(1 + tan²) ≤ a + d·tan;
+  // likewise the other edges.
   let [right, left, top, bottom] = [-Infinity, -Infinity, -Infinity, -Infinity];
   const point = new Vector3();
   for (let i = 0; i < positions.length; i += 3) {
@@ -32,7 +34,11 @@ export function frame(camera: PerspectiveCamera, positions: Float32Array, model:
     top = Math.max(top, z * tangentY + y);
     bottom = Math.max(bottom, z * tangentY - y);
   }
-  const distance = MARGIN * Math.max((right + left) / (2 * tangentX), (top + bottom) / (2 * tangentY), 0.1);
+  const distances = [
+    (right + left) / (2 * tangentX) + PAD * Math.hypot(1, 1 / tangentX),
+    (top + bottom) / (2 * tangentY) + PAD * Math.hypot(1, 1 / tangentY),
+  ];
+  const distance = MARGIN * Math.max(...distances, 0.1);
   const middle = new Vector3((right - left) / 2, (top - bottom) / 2, 0).applyQuaternion(camera.quaternion);
   camera.position.set(0, 0, distance).applyQuaternion(camera.quaternion).add(middle);
   return middle;
