@@ -1,7 +1,6 @@
 /** The form: reads settings from it, writes settings into it, and says when the user changed something. */
 import type { Link } from 'morse-smooth';
-import { COLORMAPS } from './colormap';
-import type { ColormapName } from './colormap';
+import type { Colormap } from 'morse-smooth/snapshot';
 import { clamp, element, input, select } from './dom';
 import type { Example } from './examples';
 import type { Colouring, FieldEntry, LevelPlaces, Settings } from './protocol';
@@ -30,12 +29,12 @@ export interface ControlEvents {
   delta(value: number): void;
   persistence(value: number): void;
   layers(layers: Layers): void;
-  colours(name: ColormapName, banded: boolean): void;
   example(id: string): void;
   meshFile(file: File): void;
   fieldFile(file: File): void;
   resetView(): void;
   save(): void;
+  picture(): void;
   stop(): void;
 }
 
@@ -49,6 +48,8 @@ export class Controls {
   private readonly persistenceNumber = input('persistence-number');
   private readonly colouring = select('colouring');
   private readonly levelPlaces = select('level-places');
+  private readonly colormap = select('colormap');
+  private readonly bands = input('show-bands');
   private readonly complex = input('show-complex');
   /** What is shown or not without being computed anew. */
   private readonly layerBoxes = [input('show-glyphs'), input('show-levels'), input('show-edges')] as const;
@@ -79,6 +80,8 @@ export class Controls {
       levelPlaces: this.levelPlaces.value as LevelPlaces,
       persistence: Number(this.persistenceNumber.value),
       colouring: this.colouring.value as Colouring,
+      colormap: this.colormap.value as Colormap,
+      bands: this.bands.checked,
       complex: this.complex.checked,
     };
   }
@@ -89,6 +92,8 @@ export class Controls {
     this.levels.value = String(settings.levels);
     this.levelPlaces.value = settings.levelPlaces;
     this.colouring.value = settings.colouring;
+    this.colormap.value = settings.colormap;
+    this.bands.checked = settings.bands;
     this.complex.checked = settings.complex;
     this.smoothing.write(settings);
     this.writeDelta(settings.delta);
@@ -118,6 +123,11 @@ export class Controls {
 
   setSaveable(saveable: boolean): void {
     element('#save', HTMLButtonElement).disabled = !saveable;
+  }
+
+  /** There is something to make a picture of. */
+  setDrawable(): void {
+    element('#save-picture', HTMLButtonElement).disabled = false;
   }
 
   writeRule(rule: Rule): void {
@@ -150,16 +160,20 @@ export class Controls {
     this.persistence.setAttribute('aria-valuetext', this.persistenceNumber.value);
   }
 
-  private showLayers(): void {
+  get layers(): Layers {
     const [glyphs, levels, edges] = this.layerBoxes;
-    this.events.layers({
+    return {
       glyphs: glyphs.checked,
       levels: levels.checked,
       edges: edges.checked,
       complex: this.complex.checked,
       basins: this.colouring.value === 'minima' || this.colouring.value === 'maxima',
       difference: this.colouring.value === 'difference',
-    });
+    };
+  }
+
+  private showLayers(): void {
+    this.events.layers(this.layers);
   }
 
   private wireSettings(): void {
@@ -225,13 +239,7 @@ export class Controls {
         events.settings();
       });
     }
-    const colormap = select('colormap');
-    const bands = input('show-bands');
-    for (const choice of [colormap, bands]) {
-      choice.addEventListener('change', () =>
-        events.colours(COLORMAPS.find((name) => name === colormap.value) ?? COLORMAPS[0], bands.checked),
-      );
-    }
+    for (const choice of [this.colormap, this.bands]) choice.addEventListener('change', () => events.settings());
     element('#reset-view', HTMLButtonElement).addEventListener('click', () => events.resetView());
   }
 
@@ -252,6 +260,7 @@ export class Controls {
     picker('open-mesh', (file) => events.meshFile(file));
     picker('open-field', (file) => events.fieldFile(file));
     element('#save', HTMLButtonElement).addEventListener('click', () => events.save());
+    element('#save-picture', HTMLButtonElement).addEventListener('click', () => events.picture());
     element('#stop', HTMLButtonElement).addEventListener('click', () => events.stop());
   }
 }

@@ -1,58 +1,75 @@
-/** Lines on the surface, all of one colour and some pixels wide. The surface steps back for them: see viewer.ts. */
+/** Draws lines on the surface, some pixels wide. The surface steps back for them: see viewer.ts. */
 import { GreaterDepth, Group } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
-
-export interface CurveStyle {
-  colour: number;
-  width: number;
-  opacity?: number;
-  /** A darker or lighter line under it, so that it stands out from any colour of the surface. */
-  casing?: number;
-  /** Only what is hidden is seen. */
-  ghost?: boolean;
-}
+import type { Lines, Stroke } from 'morse-smooth/snapshot';
 
 export class CurveLayer {
   readonly group = new Group();
-  private readonly lines: LineSegments2[];
-  private isShown = true;
-  private isEmpty = true;
+  private readonly line: LineSegments2;
+  private readonly casing: LineSegments2;
 
-  constructor({ colour, width, opacity = 1, casing, ghost = false }: CurveStyle) {
-    const strokes = [{ color: colour, linewidth: width }];
-    if (casing !== undefined) strokes.unshift({ color: casing, linewidth: width + 2 });
-    this.lines = strokes.map((stroke, k) => {
-      const material = new LineMaterial({ ...stroke, transparent: opacity < 1, opacity });
-      const lines = new LineSegments2(new LineSegmentsGeometry(), material);
-      // The upper stroke lies exactly on the lower one, which therefore leaves no trace in depth.
-      lines.renderOrder = k;
-      material.depthWrite = !ghost && k === strokes.length - 1;
+  /** `order`: of layers that lie over each other. `ghost`: only what is hidden is seen. */
+  constructor({ order = 1, ghost = false }: { order?: number; ghost?: boolean } = {}) {
+    // All casings lie under all lines, so that lines that meet are not cut by each other's.
+    [this.casing, this.line] = [0, order].map((place) => {
+      // They lie on each other in the order that is said, and leave no trace in depth that would decide otherwise.
+      const material = new LineMaterial({ transparent: true, depthWrite: false });
       if (ghost) material.depthFunc = GreaterDepth;
+      const lines = new LineSegments2(new LineSegmentsGeometry(), material);
+      lines.renderOrder = place;
+      lines.visible = false;
       return lines;
-    });
-    this.group.add(...this.lines);
-    this.settle();
+    }) as [LineSegments2, LineSegments2];
+    this.group.add(this.casing, this.line);
   }
 
   /** Six numbers a segment. */
-  set(segments: Float32Array): void {
-    this.isEmpty = segments.length === 0;
-    for (const line of this.lines) {
-      line.geometry.dispose();
-      line.geometry = new LineSegmentsGeometry();
-      if (!this.isEmpty) line.geometry.setPositions(segments);
-    }
-    this.settle();
+  set(segments: Float32Array, { colour, width, opacity, casing }: Stroke): void {
+    this.draw(this.line, segments, colour, width, opacity);
+    this.draw(this.casing, casing ? segments : NOTHING, casing?.colour ?? 0, casing?.width ?? 0, 1);
+  }
+
+  clear(): void {
+    for (const lines of [this.line, this.casing]) this.draw(lines, NOTHING, 0, 0, 1);
   }
 
   show(isShown: boolean): void {
-    this.isShown = isShown;
-    this.settle();
+    this.group.visible = isShown;
   }
 
-  private settle(): void {
-    this.group.visible = this.isShown && !this.isEmpty;
+  private draw(lines: LineSegments2, segments: Float32Array, colour: number, width: number, opacity: number): void {
+    lines.geometry.dispose();
+    lines.geometry = new LineSegmentsGeometry();
+    lines.visible = segments.length > 0;
+    if (!lines.visible) return;
+    lines.geometry.setPositions(segments);
+    lines.material.color.setHex(colour);
+    lines.material.linewidth = width;
+    lines.material.opacity = opacity;
   }
+}
+
+const NOTHING = new Float32Array(0);
+
+/** The lines cut into segments, six numbers each. */
+export function segmentsOf({ points, offsets, closed }: Lines): Float32Array {
+  let total = 0;
+  for (let k = 0; k < closed.length; k++)
+    total += Math.max(0, offsets[k + 1]! - offsets[k]! - 1) + (closed[k] === 1 ? 1 : 0);
+  const joined = new Float32Array(6 * total);
+  let at = 0;
+  const add = (from: number, to: number): void => {
+    joined.set(points.subarray(3 * from, 3 * from + 3), at);
+    joined.set(points.subarray(3 * to, 3 * to + 3), at + 3);
+    at += 6;
+  };
+  for (let k = 0; k < closed.length; k++) {
+    const first = offsets[k]!;
+    const last = offsets[k + 1]! - 1;
+    for (let i = first; i < last; i++) add(i, i + 1);
+    if (closed[k] === 1 && last > first) add(last, first);
+  }
+  return joined.subarray(0, at);
 }

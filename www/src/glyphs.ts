@@ -1,103 +1,126 @@
 /**
- * Critical points as small solids, told apart by shape and colour: minima are blue cubes, maxima red balls, saddles white
- * octahedra. Each has a dark rim (the same solid, a little larger, seen from its inside) so that it stands out from any
- * colour of the surface.
+ * Draws the solids of a draw list, which mark critical points. Each has a rim (the same solid, a little larger, seen from its
+ * inside), so that it stands out from any colour of the surface.
  */
 import {
   BackSide,
-  BoxGeometry,
+  BufferAttribute,
   BufferGeometry,
   GreaterDepth,
   Group,
-  IcosahedronGeometry,
   InstancedMesh,
   Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
-  OctahedronGeometry,
   Quaternion,
   Vector3,
 } from 'three';
+import type { Solids, SolidSize } from 'morse-smooth/snapshot';
 
-export const MINIMUM = -1;
+/** The kinds of critical points, as the package numbers them: −1, 0, 1. */
+export const KINDS = ['minima', 'saddles', 'maxima'] as const;
 export const SADDLE = 0;
-export const MAXIMUM = 1;
 
-/** Kept equal to the colours of the legend in style.css. */
-const COLOURS = { [MINIMUM]: 0x2f6bff, [SADDLE]: 0xffffff, [MAXIMUM]: 0xe5263c } as const;
-const RIM = 0x10151f;
+export const radiusOf = ({ cover, least, most }: SolidSize, count: number): number =>
+  Math.max(least, Math.min(most, Math.sqrt(cover / Math.max(1, count))));
 
-type Kind = keyof typeof COLOURS;
+/** Some of the instances, with the radius that so many have. */
+export function chosen(all: readonly Solids[], isChosen: (vertex: number) => boolean, size: SolidSize): Solids[] {
+  const some = all.map((solids) => {
+    const members = [...solids.vertices.keys()].filter((k) => isChosen(solids.vertices[k]!));
+    const of = (points: Float32Array): Float32Array =>
+      Float32Array.from({ length: 3 * members.length }, (_, i) => points[3 * members[Math.floor(i / 3)]! + (i % 3)]!);
+    const vertices = Uint32Array.from(members, (k) => solids.vertices[k]!);
+    return { ...solids, vertices, places: of(solids.places), axes: of(solids.axes) };
+  });
+  const radius = radiusOf(
+    size,
+    some.reduce((count, { vertices }) => count + vertices.length, 0),
+  );
+  return some.filter(({ vertices }) => vertices.length > 0).map((solids) => ({ ...solids, radius }));
+}
 
-const SHAPES: Record<Kind, () => BufferGeometry> = {
-  [MINIMUM]: () => new BoxGeometry(1.5, 1.5, 1.5),
-  [SADDLE]: () => new OctahedronGeometry(1.15),
-  [MAXIMUM]: () => new IcosahedronGeometry(1, 3),
-};
-
-/** Balls for a crowd, in which each is a few pixels wide: thousands of round ones would be most of the work of drawing. */
-const CROWD = 300;
-const COARSE_BALL = new IcosahedronGeometry(1, 1);
-
-/** Radius for which the glyphs cover about an eighth of the surface when they are many, and a set size when they are few. */
-export function glyphRadius(area: number, count: number): number {
-  return Math.max(0.004, Math.min(0.017, 0.2 * Math.sqrt(area / Math.max(1, count))));
+interface Materials {
+  body: MeshLambertMaterial;
+  rim: MeshBasicMaterial;
 }
 
 export class GlyphLayer {
   readonly group = new Group();
-  private readonly solids = new Map<
-    Kind,
-    { geometry: BufferGeometry; body: MeshLambertMaterial; rim: MeshBasicMaterial }
-  >();
+  /** Kept, since new ones would have to be compiled anew. */
+  private readonly materials = new Map<Solids['kind'], Materials>();
+  private geometries: BufferGeometry[] = [];
 
-  /** `rim`: the colour around the glyphs. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
-  constructor({ rim = RIM, ghost = false, late = false }: { rim?: number; ghost?: boolean; late?: boolean } = {}) {
-    const hidden = { transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false };
-    const see = ghost ? hidden : { transparent: late };
-    for (const kind of [MINIMUM, SADDLE, MAXIMUM] as const) {
-      this.solids.set(kind, {
-        geometry: SHAPES[kind](),
-        body: new MeshLambertMaterial({
-          color: COLOURS[kind],
-          emissive: COLOURS[kind],
-          emissiveIntensity: 0.35,
-          ...see,
-        }),
-        rim: new MeshBasicMaterial({ color: rim, side: BackSide, ...see }),
-      });
-    }
-  }
+  /** `rim`: the colour around the glyphs, if it is another. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
+  constructor(private readonly options: { rim?: number; ghost?: boolean; late?: boolean } = {}) {}
 
   clear(): void {
     for (const child of [...this.group.children]) if (child instanceof InstancedMesh) child.dispose();
+    for (const geometry of this.geometries) geometry.dispose();
+    this.geometries = [];
     this.group.clear();
   }
 
-  /** `normals` stand the glyphs upright on the surface, so that seen from above a cube is a square. */
-  set(vertices: Uint32Array, kinds: Int8Array, positions: Float32Array, normals: Float32Array, radius: number): void {
+  set(all: readonly Solids[]): void {
     this.clear();
-    for (const [kind, { geometry, body, rim }] of this.solids) {
-      const members = vertices.filter((_, k) => kinds[k] === kind);
-      if (members.length === 0) continue;
-      const shape = kind === MAXIMUM && members.length > CROWD ? COARSE_BALL : geometry;
-      const solid = new InstancedMesh(shape, body, members.length);
-      const hull = new InstancedMesh(shape, rim, members.length);
-      const up = new Vector3(0, 1, 0);
-      const normal = new Vector3();
-      const place = new Vector3();
-      const turn = new Quaternion();
-      const matrix = new Matrix4();
-      members.forEach((vertex, k) => {
-        normal.fromArray(normals, 3 * vertex);
-        place.fromArray(positions, 3 * vertex).addScaledVector(normal, 0.45 * radius);
-        turn.setFromUnitVectors(up, normal.lengthSq() > 0 ? normal : up);
-        solid.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(radius)));
-        hull.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(1.28 * radius)));
-      });
-      // Instances are spread over the whole mesh: there is nothing to gain from culling them.
-      solid.frustumCulled = hull.frustumCulled = false;
-      this.group.add(hull, solid);
+    for (const solids of all) {
+      const { body, rim } = this.materialsOf(solids);
+      const geometry = geometryOf(solids.shape);
+      this.geometries.push(geometry);
+      this.group.add(instances(solids, geometry, rim, solids.rim.scale), instances(solids, geometry, body, 1));
     }
   }
+
+  private materialsOf({ kind, colour, glow, rim }: Solids): Materials {
+    const { ghost = false, late = false } = this.options;
+    const hidden = { transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false };
+    const see = ghost ? hidden : { transparent: late };
+    const made = this.materials.get(kind) ?? {
+      body: new MeshLambertMaterial(see),
+      rim: new MeshBasicMaterial({ side: BackSide, ...see }),
+    };
+    this.materials.set(kind, made);
+    made.body.color.setHex(colour);
+    made.body.emissive.setHex(colour);
+    made.body.emissiveIntensity = glow;
+    made.rim.color.setHex(this.options.rim ?? rim.colour);
+    return made;
+  }
+}
+
+function geometryOf({ positions, normals, triangles }: Solids['shape']): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  return geometry;
+}
+
+function instances(
+  { vertices, places, axes, radius, lift }: Solids,
+  geometry: BufferGeometry,
+  material: MeshLambertMaterial | MeshBasicMaterial,
+  scale: number,
+): InstancedMesh {
+  const mesh = new InstancedMesh(geometry, material, vertices.length);
+  const axis = new Vector3();
+  const place = new Vector3();
+  const turn = new Quaternion();
+  const matrix = new Matrix4();
+  const size = new Vector3().setScalar(scale * radius);
+  for (let k = 0; k < vertices.length; k++) {
+    axis.fromArray(axes, 3 * k);
+    place.fromArray(places, 3 * k).addScaledVector(axis, lift * radius);
+    mesh.setMatrixAt(k, matrix.compose(place, upright(axis, turn), size));
+  }
+  // Instances are spread over the whole mesh: there is nothing to gain from culling them.
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+const UP = new Vector3(0, 1, 0);
+
+/** The shortest way that takes y to `axis`; straight down, where every way is the shortest, half round about x. */
+function upright(axis: Vector3, turn: Quaternion): Quaternion {
+  return axis.y < -0.999999 ? turn.set(1, 0, 0, 0) : turn.setFromUnitVectors(UP, axis);
 }

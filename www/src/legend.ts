@@ -1,10 +1,12 @@
 /** The colour bar: the colours from low to high, the level sets as ticks in it, numbers under it. */
-import { SAMPLES } from './colormap';
 import { element, short } from './dom';
 
 const LABELS = 5;
 /** The ends carry the exact range; a round number nearer to them than this many pixels would touch them. */
 const ROOM = 66;
+
+/** Where there is nothing to say, or nothing yet. */
+const PLAIN = Uint8Array.of(0xe8, 0xec, 0xf3);
 
 export class Legend {
   private readonly bar = element('#legend-bar', HTMLCanvasElement);
@@ -14,14 +16,15 @@ export class Legend {
   private range: [number, number] = [0, 1];
   private levels: number[] = [];
   private plain = false;
-  private colours: Uint8Array = new Uint8Array(4 * SAMPLES);
+  private colours: Uint8Array = PLAIN;
 
   constructor() {
     new ResizeObserver(() => this.write()).observe(this.ticks);
   }
 
-  setColormap(bytes: Uint8Array): void {
-    this.colours = bytes;
+  /** Red, green and blue at equal steps. */
+  setColours(colours: Uint8Array): void {
+    this.colours = colours;
     this.draw();
   }
 
@@ -67,18 +70,22 @@ export class Legend {
 
   private draw(): void {
     const { width, height } = this.bar;
+    drawBar(this.bar, this.plain ? PLAIN : this.colours);
     const context = this.bar.getContext('2d');
     if (!context) return;
-    for (let x = 0; x < width; x++) {
-      const k = 4 * Math.round(((SAMPLES - 1) * x) / (width - 1));
-      context.fillStyle = this.plain
-        ? '#e8ecf3'
-        : `rgb(${this.colours[k]} ${this.colours[k + 1]} ${this.colours[k + 2]})`;
-      context.fillRect(x, 0, 1, height);
-    }
     const [low, high] = this.range;
     context.fillStyle = 'rgb(13 19 32 / 85%)';
     for (const level of this.levels) context.fillRect(Math.round(((level - low) / (high - low)) * width), 0, 1, height);
+  }
+}
+
+export function drawBar(bar: HTMLCanvasElement, colours: Uint8Array): void {
+  const context = bar.getContext('2d');
+  const last = colours.length / 3 - 1;
+  for (let x = 0; context && x < bar.width; x++) {
+    const k = 3 * Math.round((last * x) / (bar.width - 1));
+    context.fillStyle = `rgb(${colours[k]} ${colours[k + 1]} ${colours[k + 2]})`;
+    context.fillRect(x, 0, 1, bar.height);
   }
 }
 

@@ -1,4 +1,5 @@
 /** The page: joins the controls, the worker, the two views and the plots. What is computed, and when, is the worker's business. */
+import type { SolidSize } from 'morse-smooth/snapshot';
 import { Client } from './client';
 import { Colours } from './colours';
 import { Controls } from './controls';
@@ -32,6 +33,8 @@ const INITIAL: Settings = {
   persistence: 0.1,
   overrides: NO_OVERRIDES,
   colouring: 'value',
+  colormap: 'viridis',
+  bands: false,
   complex: false,
   paths: false,
 };
@@ -55,7 +58,7 @@ const report = new ReportPanel();
 let source: Source | null = null;
 /** Becomes `source` when the worker has accepted it. */
 let offered: Source | null = null;
-let shown: MeshSummary | null = null;
+let shown: { summary: MeshSummary; size: SolidSize } | null = null;
 let accepted: Settings = INITIAL;
 let lit: Lit | null = null;
 let wantsPaths = false;
@@ -72,12 +75,12 @@ const controls = new Controls(EXAMPLES, INITIAL, {
   delta: showDelta,
   persistence: (value) => reading.setThreshold(value),
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
-  colours: (name, banded) => colours.setMap(name, banded),
   example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
   meshFile: (file) => openFiles([file]),
   fieldFile: addField,
   resetView,
   save: () => ask({ kind: 'save' }),
+  picture: savePicture,
   stop,
 });
 
@@ -173,6 +176,8 @@ function describe(request: Request): string {
       return 'Working…';
     case 'save':
       return 'Writing…';
+    case 'picture':
+      return 'Drawing…';
   }
 }
 
@@ -184,20 +189,22 @@ function show(part: Part): void {
       return controls.setFields(part.fields, part.chosen);
     case 'values':
       return showValues(part);
+    case 'colours':
+      return colours.setTable(part.colours, part.bands);
     case 'hierarchy':
       reading.setHierarchy(part.side, part.hierarchy);
       if (part.side === 'before') constraining.setHierarchy(part.hierarchy);
-      if (shown) panels[part.side].setHierarchy(part.counts, part.hierarchy, shown.topology, controls.read().delta);
+      if (shown) panels[part.side].setHierarchy(part, shown.size, shown.summary.topology, controls.read().delta);
       return;
     case 'pairs':
       reading.setPairs(part.pairs, part.range);
       return constraining.setPairs(part.pairs);
     case 'lines':
-      panels[part.side].viewer?.setLines(part.segments);
+      panels[part.side].viewer?.setLines(['levels'], part.lines ? [part.lines] : []);
       if (part.side === 'before') colours.setLevels(part.levels);
       return;
     case 'complex':
-      return panels[part.side].viewer?.setComplex(part.descending, part.ascending);
+      return panels[part.side].viewer?.setLines(['descending', 'ascending'], part.lines);
     case 'arcs':
       paths = new Paths(part.arcs);
       return light(lit);
@@ -206,7 +213,7 @@ function show(part: Part): void {
     case 'constraints':
       return constraining.setFound(part.found);
     case 'difference':
-      return colours.setDifference(part.largest, part.shades);
+      return colours.setDifference(part);
     case 'report':
       controls.setSaveable(true);
       report.show(part.report);
@@ -218,16 +225,16 @@ function show(part: Part): void {
   }
 }
 
-function showNewMesh({ summary, mesh }: Extract<Part, { kind: 'mesh' }>): void {
+function showNewMesh({ summary, look }: Extract<Part, { kind: 'mesh' }>): void {
   const isNew = offered !== null;
-  shown = summary;
+  shown = { summary, size: look.size };
   source = offered ?? source;
   offered = null;
   showMesh(summary);
   controls.setUnits({ meanEdge: summary.meanEdge });
   constraining.setMesh(summary.topology.components);
   showSource();
-  eachViewer((viewer) => viewer.setMesh({ ...mesh, up: source?.example?.up ?? mesh.up }));
+  eachViewer((viewer) => viewer.setMesh(look, source?.example?.up ?? look.surface.up));
   if (isNew) resetView();
 }
 
@@ -237,6 +244,7 @@ function showValues({ side, label, range, shades }: Extract<Part, { kind: 'value
   paths = null;
   colours.setField(label, range);
   controls.setUnits({ width: range[1] - range[0] });
+  controls.setDrawable();
   // The field is another one: what stands on the other side belongs to the last.
   clearAfter('Smoothing…');
 }
@@ -355,6 +363,12 @@ function light(pair: Lit | null): void {
   if (!pair || wantsPaths) return;
   wantsPaths = true;
   update();
+}
+
+/** What both views show, from where they show it. */
+function savePicture(): void {
+  const { glyphs, levels } = controls.layers;
+  ask({ kind: 'picture', view: { camera: panels.before.viewer?.direction ?? null, glyphs, levels } });
 }
 
 function resetView(): void {

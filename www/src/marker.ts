@@ -1,11 +1,14 @@
 /** What is pointed at, a critical point or a pair of them: large, with a bright rim, and a line between the two. */
 import { Group } from 'three';
+import type { Solids } from 'morse-smooth/snapshot';
 import { CurveLayer } from './curves';
-import { GlyphLayer } from './glyphs';
-import type { DisplayMesh } from './protocol';
+import { GlyphLayer, KINDS } from './glyphs';
+import type { Places } from './places';
 
 const BRIGHT = 0xffd21f;
 const RADIUS = 0.03;
+const PATH = { colour: BRIGHT, width: 4, opacity: 1, casing: { colour: 0x10151f, width: 6 } };
+const HIDDEN_PATH = { colour: BRIGHT, width: 2, opacity: 1, casing: null };
 
 /** Entry k of both arrays is about the same point. */
 export interface LitPoints {
@@ -19,23 +22,32 @@ export class Marker {
   private readonly glyphs = new GlyphLayer({ rim: BRIGHT, late: true });
   /** What lies behind the surface is still seen, faintly. */
   private readonly ghosts = new GlyphLayer({ rim: BRIGHT, ghost: true });
-  private readonly path = new CurveLayer({ colour: BRIGHT, width: 4, casing: 0x10151f });
-  private readonly ghostPath = new CurveLayer({ colour: BRIGHT, width: 2, ghost: true });
+  private readonly path = new CurveLayer();
+  private readonly hiddenPath = new CurveLayer({ ghost: true });
 
   constructor() {
-    this.group.add(this.ghosts.group, this.glyphs.group, this.path.group, this.ghostPath.group);
-    this.ghosts.group.renderOrder = 1;
-    this.glyphs.group.renderOrder = 2;
+    const layers = [this.ghosts, this.glyphs, this.path, this.hiddenPath];
+    // Over all that is drawn on the surface.
+    layers.forEach(({ group }, k) => (group.renderOrder = 1 + k));
+    this.group.add(...layers.map(({ group }) => group));
   }
 
   clear(): void {
-    this.glyphs.clear();
-    this.ghosts.clear();
-    for (const line of [this.path, this.ghostPath]) line.set(new Float32Array(0));
+    for (const layer of [this.glyphs, this.ghosts, this.path, this.hiddenPath]) layer.clear();
   }
 
-  set({ vertices, kinds }: LitPoints, mesh: DisplayMesh, normals: Float32Array, path: Float32Array): void {
-    for (const layer of [this.glyphs, this.ghosts]) layer.set(vertices, kinds, mesh.positions, normals, RADIUS);
-    for (const line of [this.path, this.ghostPath]) line.set(path);
+  /** `look`: a solid of each kind. `path`: the two vertices of each segment. */
+  set({ vertices, kinds }: LitPoints, look: readonly Solids[], places: Places, path: Uint32Array): void {
+    const solids = look.map((solid) => {
+      const members = vertices.filter((vertex, k) => KINDS[kinds[k]! + 1] === solid.kind && places.has(vertex));
+      const axes = new Float32Array(3 * members.length);
+      members.forEach((vertex, k) => places.axis(vertex).toArray(axes, 3 * k));
+      return { ...solid, vertices: members, places: places.positions(members), axes, radius: RADIUS };
+    });
+    const present = solids.filter((solid) => solid.vertices.length > 0);
+    for (const layer of [this.glyphs, this.ghosts]) layer.set(present);
+    const segments = places.positions(path);
+    this.path.set(segments, PATH);
+    this.hiddenPath.set(segments, HIDDEN_PATH);
   }
 }

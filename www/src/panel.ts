@@ -1,12 +1,21 @@
 /** One side of the page, before or after: its view, its counts and its check of Euler's formula. */
 import type { CriticalCounts, MeshTopology } from 'morse-smooth';
-import { differenceBytes } from './colormap';
+import type { Solids, SolidSize } from 'morse-smooth/snapshot';
 import { element, whole } from './dom';
-import { SADDLE } from './glyphs';
-import type { Found, Hierarchy, Side } from './protocol';
+import { chosen, SADDLE } from './glyphs';
+import type { Found, Hierarchy, Part, Side } from './protocol';
 import type { Lit } from './reading/reading';
-import { criticalAt, countsAt } from './reading/steps';
+import { countsAt, staysAt } from './reading/steps';
 import { Viewer } from './viewer';
+
+interface Critical {
+  /** At δ = 0, as the solids. */
+  counts: CriticalCounts;
+  hierarchy: Hierarchy;
+  solids: readonly Solids[];
+  size: SolidSize;
+  topology: MeshTopology;
+}
 
 export class Panel {
   /** Null where the browser has no WebGL 2: the numbers still work. */
@@ -14,12 +23,12 @@ export class Panel {
   /** True while there is no field to show. */
   awaiting = true;
   private readonly root: HTMLElement;
-  private critical: { counts: CriticalCounts; hierarchy: Hierarchy; topology: MeshTopology } | null = null;
+  private critical: Critical | null = null;
 
   constructor(side: Side) {
     this.root = element(`[data-testid="${side}"]`, HTMLElement);
     try {
-      this.viewer = new Viewer(element('canvas', HTMLCanvasElement, this.root), differenceBytes());
+      this.viewer = new Viewer(element('canvas', HTMLCanvasElement, this.root));
     } catch {
       this.viewer = null;
     }
@@ -41,26 +50,29 @@ export class Panel {
     empty.hidden = text === '';
   }
 
-  /** `counts`: at δ = 0. */
-  setHierarchy(counts: CriticalCounts, hierarchy: Hierarchy, topology: MeshTopology, delta: number): void {
-    this.critical = { counts, hierarchy, topology };
+  setHierarchy(
+    { counts, hierarchy, solids }: Extract<Part, { kind: 'hierarchy' }>,
+    size: SolidSize,
+    topology: MeshTopology,
+    delta: number,
+  ): void {
+    this.critical = { counts, hierarchy, solids, size, topology };
     this.setDelta(delta);
   }
 
   /** The hierarchy has the answer for every δ: nothing needs to be computed while the slider moves. */
   setDelta(delta: number): void {
     if (!this.critical) return;
-    const { counts, hierarchy, topology } = this.critical;
-    const { vertices, kinds } = criticalAt(hierarchy, delta);
-    this.viewer?.setCritical(vertices, kinds);
+    const { counts, hierarchy, solids, size, topology } = this.critical;
+    this.viewer?.setSolids(delta === 0 ? solids : chosen(solids, staysAt(hierarchy, delta), size));
     this.setCounts({ ...countsAt(hierarchy, delta), indexSum: delta === 0 ? counts.indexSum : null }, topology);
   }
 
   /** Names the pair that is lit in this view, if any. */
-  setLit(pair: Lit | null, path?: Float32Array): void {
+  setLit(pair: Lit | null, path?: Uint32Array): void {
     if (pair && !this.awaiting) this.root.dataset['lit'] = `${pair.extremum} ${pair.saddle}`;
     else delete this.root.dataset['lit'];
-    this.root.dataset['path'] = String((path?.length ?? 0) / 6);
+    this.root.dataset['path'] = String((path?.length ?? 0) / 2);
     const points = pair && {
       vertices: Uint32Array.of(pair.extremum, pair.saddle),
       kinds: Int8Array.of(pair.kind, SADDLE),

@@ -1,6 +1,7 @@
 /** What lies under a click. */
 import { Raycaster, Vector2, Vector3 } from 'three';
 import type { Camera, Mesh, Object3D } from 'three';
+import type { Places } from './places';
 
 /** A pointer that moves more pixels between down and up turns the view and picks nothing. */
 const STILL = 4;
@@ -19,7 +20,7 @@ export function listenToClicks(canvas: HTMLCanvasElement, use: (clientX: number,
   });
 }
 
-/** Where the surface is hit, in coordinates of `model`, and the corners of the triangle; null beside it. */
+/** Where the surface is hit, in coordinates of `model`, and the corners of the triangle there; null beside it. */
 export function hitOf(
   surface: Mesh,
   model: Object3D,
@@ -38,17 +39,12 @@ export function hitOf(
 }
 
 /** Null where none is nearer than `reach`. */
-export function nearestOf(
-  vertices: Iterable<number>,
-  positions: Float32Array,
-  place: Vector3,
-  reach: number,
-): number | null {
-  const point = new Vector3();
+export function nearestOf(vertices: Iterable<number>, places: Places, place: Vector3, reach: number): number | null {
   let best: number | null = null;
   let least = reach;
   for (const vertex of vertices) {
-    const distance = point.fromArray(positions, 3 * vertex).distanceTo(place);
+    if (!places.has(vertex)) continue;
+    const distance = places.position(vertex).distanceTo(place);
     if (distance >= least) continue;
     least = distance;
     best = vertex;

@@ -5,6 +5,7 @@
  * Only what changed is sent, so that a δ slider does not resend the mesh.
  */
 import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, SmoothReport } from 'morse-smooth';
+import type { Camera, Colormap, DrawList, Lines, Solids, Surface } from 'morse-smooth/snapshot';
 import type { Method, Smoothing } from './smoothing/settings';
 
 export type Side = 'before' | 'after';
@@ -32,6 +33,10 @@ export interface Settings extends Smoothing {
   persistence: number;
   overrides: Overrides;
   colouring: Colouring;
+  /** Of the colours by value. */
+  colormap: Colormap;
+  /** One colour between two levels. */
+  bands: boolean;
   /** Whether the Morse complex is shown, and so has to be computed. */
   complex: boolean;
   /** Whether a pair was ever pointed at, so that the ways between pairs are wanted. */
@@ -100,7 +105,8 @@ export interface Pairs {
 
 /** The lines of the Morse complex, whole, each with its two ends. */
 export interface Arcs {
-  points: Float32Array<ArrayBuffer>;
+  /** Line k has the vertices `offsets[k]` up to, not including, `offsets[k + 1]`. */
+  vertices: Uint32Array<ArrayBuffer>;
   offsets: Uint32Array<ArrayBuffer>;
   saddles: Uint32Array<ArrayBuffer>;
   extrema: Uint32Array<ArrayBuffer>;
@@ -128,14 +134,19 @@ export interface MeshSummary {
   warnings: Diagnostic[];
 }
 
-/** The mesh as the graphics card wants it: centred, scaled into the unit ball, single precision. */
-export interface DisplayMesh {
-  positions: Float32Array<ArrayBuffer>;
-  triangles: Uint32Array<ArrayBuffer>;
-  /** Area of the scaled mesh: glyphs are sized by the room that there is. */
-  area: number;
-  /** Which coordinate points up: z for things that lie flat, such as terrain. */
-  up: 'y' | 'z';
+/** How the mesh and the signs on it are drawn. */
+export interface Look extends Pick<DrawList, 'size' | 'light'> {
+  surface: Surface;
+  /** One of each kind. */
+  solids: Solids[];
+}
+
+/** How the page looks at the mesh, where a picture is to be the same. */
+export interface PictureView {
+  /** Null where the page has no view. */
+  camera: Required<Camera> | null;
+  glyphs: boolean;
+  levels: boolean;
 }
 
 export interface Failure {
@@ -148,26 +159,30 @@ export type Request =
   | { kind: 'open'; file: File; added: File[]; settings: Settings; smooth: boolean }
   | { kind: 'addField'; file: File; settings: Settings }
   | { kind: 'update'; settings: Settings }
-  | { kind: 'save' };
+  | { kind: 'save' }
+  | { kind: 'picture'; view: PictureView };
 
 export type Part =
-  | { kind: 'mesh'; summary: MeshSummary; mesh: DisplayMesh }
+  | { kind: 'mesh'; summary: MeshSummary; look: Look }
   | { kind: 'fields'; fields: FieldEntry[]; chosen: string }
-  /** A new field: whatever was shown as its smoothed version is out of date. */
-  | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array<ArrayBuffer> }
-  /** `counts`: at δ = 0. */
-  | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy }
+  /** A new field: whatever was shown as its smoothed version is out of date. `range`: of the colours; `shades`: see `DrawList`. */
+  | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array }
+  /** Of the field before, for both sides: see `DrawList`. */
+  | { kind: 'colours'; colours: Uint8Array; bands: boolean }
+  /** `counts` and `solids`: at δ = 0. */
+  | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy; solids: Solids[] }
   | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
-  | { kind: 'lines'; side: Side; segments: Float32Array<ArrayBuffer>; levels: number[] }
-  | { kind: 'complex'; side: Side; descending: Float32Array<ArrayBuffer>; ascending: Float32Array<ArrayBuffer> }
+  /** `levels`: ascending. */
+  | { kind: 'lines'; side: Side; lines: Lines | null; levels: number[] }
+  | { kind: 'complex'; side: Side; lines: Lines[] }
   /** Of the field before. */
   | { kind: 'arcs'; arcs: Arcs }
   /** `colours`: for each vertex the number of a colour; 255 where it belongs to no basin. */
   | { kind: 'basins'; side: Side; colours: Uint8Array<ArrayBuffer>; count: number }
   /** Of the methods with constraints. */
   | { kind: 'constraints'; found: Found }
-  /** After − before: `largest` without its sign, in units of the field; `shades` are 0.5 where nothing has changed. */
-  | { kind: 'difference'; largest: number; shades: Float32Array<ArrayBuffer> }
+  /** After − before: `largest` without its sign, in units of the field; the middle of the colours is where nothing has changed. */
+  | { kind: 'difference'; largest: number; shades: Float32Array; colours: Uint8Array }
   | { kind: 'report'; report: AfterReport }
   | { kind: 'unsmoothed'; reason: Unsmoothed }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };

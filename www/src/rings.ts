@@ -17,6 +17,7 @@ import {
   TorusGeometry,
   Vector3,
 } from 'three';
+import type { Places } from './places';
 import type { Found } from './protocol';
 
 const DARK = 0x10151f;
@@ -48,41 +49,43 @@ export class RingLayer {
   }
 
   /** `radius`: of the rings. */
-  set({ features, all }: Found, positions: Float32Array, normals: Float32Array, radius: number): void {
+  set(found: Found, places: Places, radius: number): void {
     this.clear();
+    const features = found.features.filter((vertex) => places.has(vertex));
+    const all = found.all.filter((vertex) => places.has(vertex));
     if (features.length === 0) return;
     const { inner, outer } = features.length > CROWD ? this.flat : this.fine;
     const rings = [new InstancedMesh(outer, this.light, features.length), new InstancedMesh(inner, this.dark, features.length)]; // prettier-ignore
-    const axis = new Vector3(0, 0, 1);
-    const normal = new Vector3();
-    const place = new Vector3();
+    const across = new Vector3(0, 0, 1);
     const turn = new Quaternion();
     const matrix = new Matrix4();
     features.forEach((vertex, k) => {
-      normal.fromArray(normals, 3 * vertex);
-      turn.setFromUnitVectors(axis, normal.lengthSq() > 0 ? normal : axis);
+      const axis = places.axis(vertex);
+      turn.setFromUnitVectors(across, axis);
       // The dark ring lies a little higher, so that it is not inside the white one.
       rings.forEach((ring, height) => {
-        place.fromArray(positions, 3 * vertex).addScaledVector(normal, (0.1 + 0.2 * height) * radius);
+        const place = places.position(vertex).addScaledVector(axis, (0.1 + 0.2 * height) * radius);
         ring.setMatrixAt(k, matrix.compose(place, turn, new Vector3().setScalar(radius)));
       });
     });
     for (const ring of rings) ring.frustumCulled = false;
     this.group.add(...rings);
-    if (all.length > features.length && all.length <= MOST_STARS) this.group.add(this.starsOf(all, positions, normals));
+    if (all.length > features.length && all.length <= MOST_STARS) this.group.add(this.starsOf(all, places));
   }
 
-  private starsOf(all: Uint32Array, positions: Float32Array, normals: Float32Array): Points {
-    const places = new Float32Array(3 * all.length);
+  private starsOf(all: Uint32Array, places: Places): Points {
+    const points = new Float32Array(3 * all.length);
     all.forEach((vertex, k) => {
-      for (let axis = 0; axis < 3; axis++)
-        places[3 * k + axis] = positions[3 * vertex + axis]! + 0.002 * normals[3 * vertex + axis]!;
+      places
+        .position(vertex)
+        .addScaledVector(places.axis(vertex), 0.002)
+        .toArray(points, 3 * k);
     });
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(places, 3));
-    const points = new Points(geometry, this.squares);
-    points.frustumCulled = false;
-    return points;
+    geometry.setAttribute('position', new BufferAttribute(points, 3));
+    const squares = new Points(geometry, this.squares);
+    squares.frustumCulled = false;
+    return squares;
   }
 }
 

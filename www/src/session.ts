@@ -6,12 +6,14 @@
  */
 import { writeMesh } from 'morse-smooth';
 import type { MeshFile, PersistencePairs, TriMesh } from 'morse-smooth';
+import { Scene } from 'morse-smooth/snapshot';
+import type { Solids } from 'morse-smooth/snapshot';
 import { colourBasins } from './basins';
-import { displayMesh, meanEdgeOf, placementOf, rangeOf, shadesOf } from './display';
-import type { Placement } from './display';
+import { complexLines, differencePart, levelLines, lookOf, pictureOf, rangeOption } from './drawing';
 import { Refusal } from './failure';
-import { arcsPart, complexPart, differencePart, hierarchyPart, levelLines, linesPart, pairsPart } from './findings';
-import type { Colouring, FieldEntry, Found, Part, Settings, Side } from './protocol';
+import { arcsOf, hierarchyOf, levelsOf, pairsPart } from './findings';
+import { meanEdgeOf, rangeOf } from './measures';
+import type { Colouring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
 import { Methods } from './smoothing/methods';
 import {
@@ -36,7 +38,7 @@ export class Session {
   private readonly file: MeshFile;
   private readonly mesh: TriMesh;
   private readonly positions: Float64Array;
-  private readonly placement: Placement;
+  private readonly scene: Scene;
   private readonly entries: FieldEntry[];
   private readonly fields = new Map<string, Float64Array>();
   private readonly triangles: Uint32Array;
@@ -62,7 +64,7 @@ export class Session {
     this.name = name;
     this.positions = file.mesh.positions();
     this.triangles = file.mesh.triangles();
-    this.placement = placementOf(this.positions);
+    this.scene = new Scene(this.positions, this.triangles);
     this.meanEdge = meanEdgeOf(this.positions, this.triangles);
     this.methods = new Methods(this.mesh, this.meanEdge, onProgress);
     this.entries = [];
@@ -83,7 +85,7 @@ export class Session {
     send({
       kind: 'mesh',
       summary: { name, format, vertexCount, edgeCount, triangleCount, topology, meanEdge, warnings },
-      mesh: displayMesh(this.mesh, this.positions, this.placement),
+      look: lookOf(this.scene, vertexCount, this.triangles),
     });
     this.sendFields(send, chosen);
   }
@@ -121,8 +123,18 @@ export class Session {
     const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!, [`${label}_${suffix}`]: smoothed };
     const bytes = writeMesh(this.mesh, { format: 'ply', fields: plainNames(fields), binary: true });
-    const stem = this.name.replace(/\.[^.]*$/, '');
-    send({ kind: 'saved', name: `${stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
+    send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
+  }
+
+  /** What the page shows, as a picture. */
+  draw(view: PictureView, send: Send): void {
+    const { settings, smoothed, levels } = this;
+    if (!settings) throw new Refusal('NothingToSave', 'There is no field yet.');
+    const before = this.fields.get(settings.field)!;
+    const label = this.labelOf(settings.field);
+    const subject = { before, after: smoothed, range: rangeOf(before), levels, title: `${this.name}, ${label}` };
+    const bytes = pictureOf(this.scene, subject, settings, view);
+    send({ kind: 'saved', name: `${this.stem}_${plainName(label)}.png`, bytes: new Uint8Array(bytes) });
   }
 
   /** The page goes on without a smoothed field until something that it depends on changes. */
@@ -132,6 +144,7 @@ export class Session {
 
   free(): void {
     this.methods.free();
+    this.scene.free();
     this.mesh.free();
   }
 
@@ -148,18 +161,10 @@ export class Session {
     };
     let { pairs, found, levels, basinColours } = this;
 
-    if (isDue('values', field)) {
-      const range = rangeOf(values);
-      parts.push({
-        kind: 'values',
-        side: 'before',
-        label: this.labelOf(field),
-        range,
-        shades: shadesOf(values, range),
-      });
-    }
-    if (isDue('before.hierarchy', `${field} ${wanted.link}`))
-      parts.push(hierarchyPart(this.mesh, 'before', values, wanted));
+    const isNew = isDue('values', field);
+    const hierarchy = isDue('before.hierarchy', `${field} ${wanted.link}`)
+      ? hierarchyOf(this.mesh, values, wanted)
+      : null;
     if (isDue('before.pairs', field) || !pairs) {
       pairs = this.mesh.persistence(values);
       parts.push(pairsPart(pairs, values));
@@ -168,21 +173,35 @@ export class Session {
       found = findConstraints(this.mesh, wanted, values, pairs);
       parts.push({ kind: 'constraints', found: copied(found) });
     }
-    if (isDue('before.lines', linesKey(field, wanted))) {
-      const lines = levelLines(this.mesh, values, pairs, this.placement, wanted);
-      levels = lines.levels;
-      parts.push(lines);
+    const { complex, colouring, colormap, bands, persistence } = wanted;
+    const lines = isDue('before.lines', linesKey(field, wanted)) ? levelsOf(this.mesh, values, pairs, wanted) : null;
+    const separatrices = complex && isDue('before.complex', `${field} ${persistence}`) ? { persistence } : null;
+    const isPainted = isDue('colours', `${colormap} ${bands ? linesKey(field, wanted) : ''}`);
+    if (isNew || hierarchy || lines || separatrices || isPainted) {
+      const list = this.scene.drawList(values, {
+        colormap,
+        bands,
+        levels: lines ?? (isPainted && bands ? levels : []),
+        criticalPoints: hierarchy ?? false,
+        morseComplex: separatrices ? this.mesh.morseComplex(values, { ...separatrices, paths: 'merged' }) : false,
+      });
+      const { range, shades, colours, solids } = list;
+      if (lines) levels = [...list.levels];
+      const drawn: Part[] = [];
+      if (isNew) drawn.push({ kind: 'values', side: 'before', label: this.labelOf(field), range, shades });
+      if (isPainted) drawn.push({ kind: 'colours', colours, bands });
+      if (hierarchy) drawn.push(this.hierarchyPart('before', values, hierarchy, solids));
+      if (lines) drawn.push({ kind: 'lines', side: 'before', lines: levelLines(list), levels });
+      if (separatrices) drawn.push({ kind: 'complex', side: 'before', lines: complexLines(list) });
+      // The values come before all that is about them.
+      parts.unshift(...drawn);
     }
-    const { complex, colouring, persistence } = wanted;
-    if (complex && isDue('before.complex', `${field} ${persistence}`))
-      parts.push(complexPart(this.mesh, 'before', values, persistence, this.placement));
     if (isByBasins(colouring) && isDue('before.basins', `${field} ${persistence} ${colouring}`)) {
       const { part, byExtremum } = this.basins('before', values, colouring, persistence);
       basinColours = byExtremum;
       parts.push(part);
     }
-
-    if (wanted.paths && isDue('before.arcs', field)) parts.push(arcsPart(this.mesh, values, this.placement));
+    if (wanted.paths && isDue('before.arcs', field)) parts.push({ kind: 'arcs', arcs: arcsOf(this.mesh, values) });
 
     announce?.();
     if (keys.some(([slot]) => slot === 'values')) this.forgetAfter();
@@ -208,25 +227,39 @@ export class Session {
       if (!this.smooth(before, { ...wanted, field }, key, send)) return;
     }
     const values = this.smoothed!;
-    const stage = (slot: string, slotKey: string, make: () => Part): void => {
-      if (this.sent.get(slot) === slotKey) return;
-      send(make());
-      this.sent.set(slot, slotKey);
+    const parts: Part[] = [];
+    const keys: [string, string][] = [];
+    const isDue = (slot: string, slotKey: string): boolean => {
+      if (this.sent.get(slot) === slotKey) return false;
+      keys.push([slot, slotKey]);
+      return true;
     };
     const { complex, colouring, persistence } = wanted;
-    stage('after.hierarchy', `${key} ${wanted.link}`, () => hierarchyPart(this.mesh, 'after', values, wanted));
-    stage('after.lines', `${key} ${linesKey(field, wanted)}`, () =>
-      linesPart(this.mesh, 'after', values, this.levels, this.placement),
-    );
-    if (complex) stage('after.complex', key, () => complexPart(this.mesh, 'after', values, 0, this.placement));
+    const isNew = isDue('after.values', key);
+    const hierarchy = isDue('after.hierarchy', `${key} ${wanted.link}`) ? hierarchyOf(this.mesh, values, wanted) : null;
+    const hasLines = isDue('after.lines', `${key} ${linesKey(field, wanted)}`);
+    const hasComplex = complex && isDue('after.complex', key);
+    if (isNew || hierarchy || hasLines || hasComplex) {
+      const list = this.scene.drawList(values, {
+        // Coloured by the range of the input, so that a loss of amplitude shows.
+        ...rangeOption(rangeOf(before)),
+        levels: hasLines ? this.levels : [],
+        criticalPoints: hierarchy ?? false,
+        morseComplex: hasComplex && this.mesh.morseComplex(values, { persistence: 0, paths: 'merged' }),
+      });
+      const { range, shades, solids } = list;
+      if (isNew) parts.push({ kind: 'values', side: 'after', label: this.labelOf(field), range, shades });
+      if (hierarchy) parts.push(this.hierarchyPart('after', values, hierarchy, solids));
+      if (hasLines) parts.push({ kind: 'lines', side: 'after', lines: levelLines(list), levels: this.levels });
+      if (hasComplex) parts.push({ kind: 'complex', side: 'after', lines: complexLines(list) });
+    }
     // The colours follow those on the left, which depend on the threshold.
-    if (isByBasins(colouring))
-      stage(
-        'after.basins',
-        `${key} ${persistence} ${colouring}`,
-        () => this.basins('after', values, colouring, 0).part,
-      );
-    if (colouring === 'difference') stage('after.difference', key, () => differencePart(before, values));
+    if (isByBasins(colouring) && isDue('after.basins', `${key} ${persistence} ${colouring}`))
+      parts.push(this.basins('after', values, colouring, 0).part);
+    if (colouring === 'difference' && isDue('after.difference', key))
+      parts.push(differencePart(this.scene, before, values));
+    for (const [slot, slotKey] of keys) this.sent.set(slot, slotKey);
+    parts.forEach(send);
     this.settings = { ...wanted, field };
   }
 
@@ -239,9 +272,6 @@ export class Session {
       const { values, ...report } = this.methods.run(before, wanted, this.pairs!, found);
       this.smoothed = values;
       this.sent.set('smoothed', key);
-      // Coloured by the range of the input, so that a loss of amplitude shows.
-      const shades = shadesOf(values, rangeOf(before));
-      send({ kind: 'values', side: 'after', label: this.labelOf(wanted.field), range: rangeOf(values), shades });
       send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
       return true;
     } catch (error) {
@@ -257,6 +287,12 @@ export class Session {
   private forgetAfter(): void {
     this.smoothed = null;
     for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
+  }
+
+  private hierarchyPart(side: Side, values: Float64Array, hierarchy: Hierarchy, solids: Solids[]): Part {
+    // For the index sum, which is checked against the Euler characteristic.
+    const { counts } = this.mesh.criticalPoints(values);
+    return { kind: 'hierarchy', side, counts, hierarchy, solids };
   }
 
   private basins(side: Side, values: Float64Array, colouring: 'minima' | 'maxima', persistence: number) {
@@ -282,6 +318,10 @@ export class Session {
   /** A request may have been made while another mesh, with other fields, was still shown. */
   private known(field: string): string {
     return this.fields.has(field) ? field : (this.settings?.field ?? this.entries[0]!.key);
+  }
+
+  private get stem(): string {
+    return this.name.replace(/\.[^.]*$/, '');
   }
 
   private labelOf(key: string): string {
@@ -311,5 +351,7 @@ function linesKey(field: string, { levels, levelPlaces, persistence, overrides }
 
 /** PLY property names are single words. */
 function plainNames(fields: Record<string, Float64Array>): Record<string, Float64Array> {
-  return Object.fromEntries(Object.entries(fields).map(([name, values]) => [name.replace(/[^\w.-]+/g, '_'), values]));
+  return Object.fromEntries(Object.entries(fields).map(([name, values]) => [plainName(name), values]));
 }
+
+const plainName = (name: string): string => name.replace(/[^\w.-]+/g, '_');

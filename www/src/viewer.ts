@@ -1,4 +1,4 @@
-/** One 3D view: the surface coloured by a field, its level sets, its critical points. Draws only when something changed. */
+/** One 3D view: draws what a draw list says, and the page's own signs on it. Draws only when something changed. */
 import {
   AmbientLight,
   BufferAttribute,
@@ -8,39 +8,37 @@ import {
   DirectionalLight,
   DoubleSide,
   Group,
-  LinearFilter,
   LineBasicMaterial,
   LineSegments,
-  Matrix4,
   Mesh,
   MeshLambertMaterial,
-  NearestFilter,
   PerspectiveCamera,
   Scene,
-  SRGBColorSpace,
   Vector3,
   WebGLRenderer,
   WireframeGeometry,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { SAMPLES } from './colormap';
-import { CurveLayer } from './curves';
-import { GlyphLayer, glyphRadius } from './glyphs';
+import type { Camera, Lines, Solids, Surface } from 'morse-smooth/snapshot';
+import { along, basinColours, textureOf } from './colormap';
+import { CurveLayer, segmentsOf } from './curves';
+import { fieldOfView, frame } from './framing';
+import { GlyphLayer, radiusOf } from './glyphs';
 import { Marker } from './marker';
 import type { LitPoints } from './marker';
 import { hitOf, listenToClicks, nearestOf } from './picking';
-import type { DisplayMesh, Found } from './protocol';
+import { Places } from './places';
+import type { Found, Look } from './protocol';
 import { RingLayer } from './rings';
 
 const BACKGROUND = 0xffffff;
-const FIELD_OF_VIEW = 30;
-/** Room around the mesh for glyphs on its rim. */
-const MARGIN = 1.1;
+const EDGES = 0x0d1320;
 /** Radians a key press turns the view by, and the factor it zooms by. */
 const KEY_TURN = Math.PI / 24;
 const KEY_ZOOM = 1.12;
-/** Of rings, by the radius of glyphs. */
+/** Of rings: by the radius of glyphs, and their least radius where they are few. */
 const RING = 1.75;
+const FEW_RINGS = 0.014;
 
 export interface Layers {
   glyphs: boolean;
@@ -53,11 +51,6 @@ export interface Layers {
   difference: boolean;
 }
 
-/** Of the Morse complex: towards minima and towards maxima, near to the colours of those. */
-const DESCENDING = 0x8fc1ff;
-const ASCENDING = 0xff8a8f;
-const DARK = 0x0d1320;
-
 export class Viewer {
   /** Called after the user has moved this view's camera. */
   onMove: (() => void) | null = null;
@@ -66,7 +59,7 @@ export class Viewer {
 
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
+  private readonly camera = new PerspectiveCamera(fieldOfView(1), 1, 0.01, 100);
   private readonly controls: OrbitControls;
   /** Turned so that what is "up" in the file is up on the screen. */
   private readonly model = new Group();
@@ -74,15 +67,19 @@ export class Viewer {
   private readonly plainMaterial: MeshLambertMaterial;
   private readonly basinMaterial: MeshLambertMaterial;
   private readonly differenceMaterial: MeshLambertMaterial;
-  private readonly lines = new CurveLayer({ colour: DARK, width: 1.6, opacity: 0.85 });
-  private readonly descending = new CurveLayer({ colour: DESCENDING, width: 2, casing: DARK });
-  private readonly ascending = new CurveLayer({ colour: ASCENDING, width: 2, casing: DARK });
+  private readonly everywhere = new AmbientLight(0xffffff);
+  private readonly aside = new DirectionalLight(0xffffff);
+  private readonly curves: Record<Lines['kind'], CurveLayer> = {
+    levels: new CurveLayer({ order: 1 }),
+    descending: new CurveLayer({ order: 2 }),
+    ascending: new CurveLayer({ order: 3 }),
+  };
   private readonly marker = new Marker();
   private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly glyphs = new GlyphLayer();
   private readonly rings = new RingLayer();
-  private readonly texture: DataTexture = textureOf(new Uint8Array(4 * SAMPLES));
-  private mesh: DisplayMesh | null = null;
+  private look: Look | null = null;
+  private places: Places | null = null;
   private layers: Layers = {
     glyphs: true,
     levels: true,
@@ -91,41 +88,34 @@ export class Viewer {
     basins: false,
     difference: false,
   };
-  private critical: { vertices: Uint32Array; kinds: Int8Array } | null = null;
+  private solids: readonly Solids[] = [];
   private constrained: Found | null = null;
   private frame = 0;
 
   /** Throws where there is no WebGL 2. */
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    differences: Uint8Array<ArrayBuffer>,
-  ) {
+  constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.background = new Color(BACKGROUND);
 
     // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
     const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 4 } as const;
-    this.plainMaterial = new MeshLambertMaterial({ ...pushed, map: this.texture });
+    this.plainMaterial = new MeshLambertMaterial(pushed);
     this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
-    const differenceTexture = textureOf(differences);
-    differenceTexture.channel = 1;
-    this.differenceMaterial = new MeshLambertMaterial({ ...pushed, map: differenceTexture });
+    this.differenceMaterial = new MeshLambertMaterial(pushed);
     this.surface = new Mesh(new BufferGeometry(), this.plainMaterial);
-    // Before the lines, some of which leave no trace in depth.
+    // Before the lines, which leave no trace in depth.
     this.surface.renderOrder = -1;
     this.edges = new LineSegments(
       new BufferGeometry(),
-      new LineBasicMaterial({ color: DARK, transparent: true, opacity: 0.22 }),
+      new LineBasicMaterial({ color: EDGES, transparent: true, opacity: 0.22 }),
     );
-    const curves = [this.lines, this.descending, this.ascending].map(({ group }) => group);
+    const curves = Object.values(this.curves).map(({ group }) => group);
     this.model.add(this.surface, ...curves, this.edges, this.glyphs.group, this.rings.group, this.marker.group);
     this.model.visible = false;
-    this.scene.add(this.model, this.camera, new AmbientLight(0xffffff, 2.3));
-    // The light comes from beside the eye: shading shows the shape without hiding the colours.
-    const light = new DirectionalLight(0xffffff, 1.5);
-    light.position.set(-0.6, 0.9, 1);
-    this.camera.add(light);
+    this.scene.add(this.model, this.camera, this.everywhere);
+    // From beside the eye, wherever that is.
+    this.camera.add(this.aside, this.aside.target);
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -144,76 +134,81 @@ export class Viewer {
     this.resize();
   }
 
-  setMesh(mesh: DisplayMesh): void {
-    this.mesh = mesh;
+  /** `up`: which axis of the file points upwards on the screen. */
+  setMesh(look: Look, up: Surface['up']): void {
+    const { surface, light } = look;
+    this.look = look;
+    this.places = new Places(surface);
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
-    geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
-    geometry.computeVertexNormals();
+    geometry.setAttribute('position', new BufferAttribute(surface.positions, 3));
+    geometry.setAttribute('normal', new BufferAttribute(surface.normals, 3));
+    geometry.setIndex(new BufferAttribute(surface.triangles, 1));
     this.surface.geometry.dispose();
     this.surface.geometry = geometry;
+    // A surface sends the π-th part of the light that it gets into each direction.
+    this.everywhere.intensity = Math.PI * light.ambient;
+    this.aside.intensity = Math.PI * light.diffuse;
+    this.aside.position.set(...light.direction);
     this.constrained = null;
     this.rings.clear();
     this.edges.geometry.dispose();
     this.edges.geometry = new BufferGeometry();
-    this.model.rotation.x = mesh.up === 'z' ? -Math.PI / 2 : 0;
+    this.model.rotation.x = up === 'z' ? -Math.PI / 2 : 0;
     this.clearField();
   }
 
   /** Nothing to show until `setShades` is called. */
   clearField(): void {
     this.model.visible = false;
-    this.critical = null;
+    this.solids = [];
     this.glyphs.clear();
     this.marker.clear();
     this.surface.geometry.deleteAttribute('color');
     this.surface.geometry.deleteAttribute('uv1');
-    const none = new Float32Array(0);
-    this.setComplex(none, none);
-    this.setLines(none);
+    for (const curves of Object.values(this.curves)) curves.clear();
+    this.draw();
   }
 
-  /** The colour is looked up for every pixel, not mixed between the vertices' colours. */
   setShades(shades: Float32Array): void {
     this.surface.geometry.setAttribute('uv', along(shades));
     this.model.visible = true;
     this.draw();
   }
 
+  /** `stepped`: colours with steps between them. */
+  setColours(colours: Uint8Array, stepped: boolean): void {
+    paint(this.plainMaterial, textureOf(colours, stepped));
+    this.draw();
+  }
+
   /** The same for what has changed, with colours of its own. */
-  setDifference(shades: Float32Array): void {
+  setDifference(shades: Float32Array, colours: Uint8Array): void {
     this.surface.geometry.setAttribute('uv1', along(shades));
+    const texture = textureOf(colours, false);
+    texture.channel = 1;
+    paint(this.differenceMaterial, texture);
     this.applyLayers();
   }
 
-  /** `banded`: colours with steps between them, which must not be blurred. */
-  setColormap(bytes: Uint8Array, banded: boolean): void {
-    (this.texture.image.data as Uint8Array).set(bytes);
-    this.texture.magFilter = this.texture.minFilter = banded ? NearestFilter : LinearFilter;
-    this.texture.needsUpdate = true;
+  /** In place of all lines of those kinds. */
+  setLines(kinds: readonly Lines['kind'][], all: readonly Lines[]): void {
+    for (const kind of kinds) this.curves[kind].clear();
+    for (const lines of all) this.curves[lines.kind].set(segmentsOf(lines), lines.stroke);
     this.draw();
   }
 
-  setLines(segments: Float32Array): void {
-    this.lines.set(segments);
-    this.draw();
-  }
-
-  setComplex(descending: Float32Array, ascending: Float32Array): void {
-    this.descending.set(descending);
-    this.ascending.set(ascending);
-    this.draw();
-  }
-
-  /** Red, green, blue of each vertex, mixed over the triangles in which basins meet. */
-  setBasins(colours: Float32Array): void {
+  /** The numbers of the vertices' colours, which are mixed over the triangles in which basins meet. */
+  setBasins(numbers: Uint8Array): void {
+    if (!this.look) return;
+    const colours = basinColours(numbers, this.look.surface.vertices);
     this.surface.geometry.setAttribute('color', new BufferAttribute(colours, 3));
     this.applyLayers();
   }
 
-  /** `path`: lines between the points, where they are known. */
-  setLit(points: LitPoints | null, path: Float32Array = new Float32Array(0)): void {
-    if (points && this.mesh && this.model.visible) this.marker.set(points, this.mesh, this.normals, path);
+  /** `path`: the two vertices of each segment of a line between the points, where it is known. */
+  setLit(points: LitPoints | null, path: Uint32Array = new Uint32Array(0)): void {
+    if (points && this.look && this.places && this.model.visible)
+      this.marker.set(points, this.look.solids, this.places, path);
     else this.marker.clear();
     this.draw();
   }
@@ -223,9 +218,10 @@ export class Viewer {
     this.drawRings();
   }
 
-  setCritical(vertices: Uint32Array, kinds: Int8Array): void {
-    this.critical = { vertices, kinds };
-    this.applyLayers(true);
+  setSolids(solids: readonly Solids[]): void {
+    this.solids = solids;
+    this.glyphs.set(solids);
+    this.drawRings();
   }
 
   setLayers(layers: Layers): void {
@@ -235,37 +231,22 @@ export class Viewer {
 
   /** Looks from `direction` (of the scene, y up) at the whole mesh, as near as it fits, with its picture in the middle. */
   frameMesh(direction: readonly [number, number, number]): void {
-    if (!this.mesh) return;
-    const { camera, controls } = this;
+    if (!this.look) return;
+    const { camera, controls, model } = this;
     camera.position.set(...direction).normalize();
     camera.lookAt(0, 0, 0);
-    camera.updateMatrixWorld();
-    this.model.updateMatrixWorld();
-    const turn = camera.matrixWorldInverse.clone().setPosition(0, 0, 0).multiply(this.model.matrixWorld);
-    const tangentY = Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
-    const tangentX = tangentY * camera.aspect;
-    // A point (x, y, z) is inside the right edge of a camera at (a, b, d) if x + z·tan ≤ a + d·tan; likewise the other edges.
-    const [right, left, top, bottom] = this.reaches(turn, tangentX, tangentY);
-    const distance = Math.max((right + left) / (2 * tangentX), (top + bottom) / (2 * tangentY), 0.1);
-    const shift = new Vector3((right - left) / 2, (top - bottom) / 2, 0).applyQuaternion(camera.quaternion);
-    camera.position.multiplyScalar(MARGIN * distance).add(shift);
-    controls.target.copy(shift);
+    model.updateMatrixWorld();
+    controls.target.copy(frame(camera, this.look.surface.positions, model.matrixWorld));
     controls.update();
     this.draw();
   }
 
-  private reaches(turn: Matrix4, tangentX: number, tangentY: number): [number, number, number, number] {
-    const reach: [number, number, number, number] = [-Infinity, -Infinity, -Infinity, -Infinity];
-    const { positions } = this.mesh!;
-    const point = new Vector3();
-    for (let i = 0; i < positions.length; i += 3) {
-      const { x, y, z } = point.fromArray(positions, i).applyMatrix4(turn);
-      reach[0] = Math.max(reach[0], z * tangentX + x);
-      reach[1] = Math.max(reach[1], z * tangentX - x);
-      reach[2] = Math.max(reach[2], z * tangentY + y);
-      reach[3] = Math.max(reach[3], z * tangentY - y);
-    }
-    return reach;
+  /** From where the mesh is seen, in its own coordinates. */
+  get direction(): Required<Camera> {
+    const { camera, model } = this;
+    const back = model.quaternion.clone().invert().multiply(camera.quaternion);
+    const [direction, up] = [new Vector3(0, 0, 1), new Vector3(0, 1, 0)].map((axis) => axis.applyQuaternion(back));
+    return { direction: direction!.toArray(), up: up!.toArray() };
   }
 
   copyCamera(other: Viewer): void {
@@ -275,11 +256,11 @@ export class Viewer {
     this.draw();
   }
 
-  private applyLayers(criticalChanged = false): void {
+  private applyLayers(): void {
     const { glyphs, levels, edges, complex, basins, difference } = this.layers;
-    this.lines.show(levels);
-    this.descending.show(complex);
-    this.ascending.show(complex);
+    this.curves.levels.show(levels);
+    this.curves.descending.show(complex);
+    this.curves.ascending.show(complex);
     // Until the colours have come, values are shown.
     const has = (name: string): boolean => this.surface.geometry.hasAttribute(name);
     if (basins && has('color')) this.surface.material = this.basinMaterial;
@@ -287,49 +268,42 @@ export class Viewer {
     else this.surface.material = this.plainMaterial;
     this.edges.visible = edges;
     // Edges of a large mesh are only built when somebody wants to see them.
-    if (edges && this.mesh && !this.edges.geometry.hasAttribute('position')) {
+    if (edges && this.look && !this.edges.geometry.hasAttribute('position')) {
       this.edges.geometry = new WireframeGeometry(this.surface.geometry);
     }
     this.glyphs.group.visible = glyphs;
-    if (criticalChanged && this.critical && this.mesh) {
-      const { vertices, kinds } = this.critical;
-      this.glyphs.set(vertices, kinds, this.mesh.positions, this.normals, this.glyphSize);
-      this.drawRings();
-    }
     this.draw();
   }
 
   private drawRings(): void {
-    if (this.constrained && this.mesh)
-      this.rings.set(this.constrained, this.mesh.positions, this.normals, this.ringSize);
+    if (this.constrained && this.places) this.rings.set(this.constrained, this.places, this.ringSize);
     this.draw();
-  }
-
-  private get normals(): Float32Array {
-    return this.surface.geometry.getAttribute('normal').array as Float32Array;
-  }
-
-  private get glyphSize(): number {
-    return glyphRadius(this.mesh!.area, this.critical?.vertices.length ?? 0);
   }
 
   /** Around glyphs, and no smaller where the glyphs are many and the constraints few. */
   private get ringSize(): number {
+    const { size } = this.look!;
     const count = this.constrained?.features.length ?? 0;
-    return RING * Math.max(this.glyphSize, Math.min(0.014, glyphRadius(this.mesh!.area, 4 * count)));
+    const glyph = this.solids[0]?.radius ?? radiusOf(size, 0);
+    return RING * Math.max(glyph, Math.min(FEW_RINGS, radiusOf(size, 4 * count)));
   }
 
   /** The constrained vertex or the critical point whose sign is there, else the nearest corner of the triangle. */
   private vertexAt(clientX: number, clientY: number): number | null {
-    const { mesh, model, surface } = this;
-    if (!mesh || !model.visible) return null;
-    const hit = hitOf(surface, model, this.camera, this.canvas, clientX, clientY);
+    const { look, places, model } = this;
+    if (!look || !places || !model.visible) return null;
+    const hit = hitOf(this.surface, model, this.camera, this.canvas, clientX, clientY);
     if (!hit) return null;
     const nearest = (vertices: Iterable<number>, reach: number): number | null =>
-      nearestOf(vertices, mesh.positions, hit.place, reach);
+      nearestOf(vertices, places, hit.place, reach);
     const marked = nearest(this.constrained?.features ?? [], this.ringSize);
-    const critical = this.layers.glyphs ? nearest(this.critical?.vertices ?? [], this.glyphSize) : null;
-    return marked ?? critical ?? nearest(hit.corners, Infinity);
+    const shown = this.layers.glyphs ? this.solids : [];
+    const critical = nearest(
+      shown.flatMap(({ vertices }) => [...vertices]),
+      shown[0]?.radius ?? 0,
+    );
+    const corners = hit.corners.map((corner) => look.surface.vertices[corner]!);
+    return marked ?? critical ?? nearest(corners, Infinity);
   }
 
   private resize(): void {
@@ -337,6 +311,7 @@ export class Viewer {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
+    this.camera.fov = fieldOfView(this.camera.aspect);
     this.camera.updateProjectionMatrix();
     this.draw();
   }
@@ -374,23 +349,12 @@ export class Viewer {
   }
 }
 
-/** Texture coordinates that look shades up in a colour map. */
-function along(shades: Float32Array): BufferAttribute {
-  const uv = new Float32Array(2 * shades.length);
-  for (let i = 0; i < shades.length; i++) {
-    // From the middle of the first texel to the middle of the last.
-    uv[2 * i] = (0.5 + (SAMPLES - 1) * shades[i]!) / SAMPLES;
-    uv[2 * i + 1] = 0.5;
-  }
-  return new BufferAttribute(uv, 2);
-}
-
-function textureOf(bytes: Uint8Array<ArrayBuffer>): DataTexture {
-  const texture = new DataTexture(bytes, SAMPLES, 1);
-  texture.colorSpace = SRGBColorSpace;
-  texture.magFilter = texture.minFilter = LinearFilter;
-  texture.needsUpdate = true;
-  return texture;
+/** In place of the texture that the material had. */
+function paint(material: MeshLambertMaterial, texture: DataTexture): void {
+  // With its first texture it becomes another program.
+  if (!material.map) material.needsUpdate = true;
+  material.map?.dispose();
+  material.map = texture;
 }
 
 /** Joins the cameras of two views. */

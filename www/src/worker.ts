@@ -1,5 +1,6 @@
-/** The page's worker: loads the WebAssembly module once and answers one request after the other. */
+/** The page's worker: loads the WebAssembly modules once and answers one request after the other. */
 import init, { readField, readMesh, version } from 'morse-smooth';
+import initPictures from 'morse-smooth/snapshot';
 import { failureOf, Refusal } from './failure';
 import type { Part, Reply, Request, Settings } from './protocol';
 import { Session } from './session';
@@ -15,16 +16,14 @@ let session: Session | null = null;
 
 /** Typed arrays move to the page instead of being copied; all of them were made for this message. */
 function post(message: Reply): void {
-  const transfer: Transferable[] = [];
-  if (message.kind === 'part') {
-    // Arrays of the part itself, and those of the one thing in it.
-    for (const holder of [message.part, ...Object.values(message.part)]) {
-      if (typeof holder !== 'object' || holder === null || ArrayBuffer.isView(holder)) continue;
-      for (const value of Object.values(holder as object))
-        if (ArrayBuffer.isView(value)) transfer.push(value.buffer as ArrayBuffer);
-    }
-  }
-  scope.postMessage(message, transfer);
+  scope.postMessage(message, message.kind === 'part' ? [...buffersIn(message.part)] : []);
+}
+
+function buffersIn(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer> {
+  if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+  else if (typeof value === 'object' && value !== null)
+    for (const inner of Object.values(value)) buffersIn(inner, found);
+  return found;
 }
 
 const send = (part: Part): void => post({ kind: 'part', part });
@@ -100,12 +99,14 @@ async function answer(request: Request): Promise<void> {
       return session ? update(session, request.settings) : undefined;
     case 'save':
       return session?.save(send);
+    case 'picture':
+      return session?.draw(request.view, send);
   }
 }
 
 async function main(): Promise<void> {
   try {
-    await init();
+    await Promise.all([init(), initPictures()]);
   } catch (error) {
     post({ kind: 'failed', failure: failureOf(error), settings: null });
     return;

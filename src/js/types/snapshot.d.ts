@@ -152,6 +152,8 @@ export interface DrawList {
   colours: Uint8Array;
   /** The values with shade 0 and 1. */
   range: [number, number];
+  /** The levels, ascending, each once. */
+  levels: Float64Array;
   /** Level sets, then the Morse complex: later ones lie above earlier ones. */
   lines: Lines[];
   /** Critical points, one entry for each kind that there is. */

@@ -1,6 +1,6 @@
 //! Surfaces and draw lists as plain objects.
 
-use js_sys::{Array, Float32Array, Object, Uint8Array, Uint32Array};
+use js_sys::{Array, Float32Array, Float64Array, Object, Uint8Array, Uint32Array};
 use wasm_bindgen::JsValue;
 
 use crate::render::{Axis, DrawList, Lines, Rgb, Role, Solids, Surface};
@@ -43,6 +43,7 @@ pub(super) fn draw_list(list: &DrawList) -> Object {
     set(&object, "shades", &singles(&list.shades));
     set(&object, "colours", &Uint8Array::from(colours.as_flattened()));
     set(&object, "range", &numbers(&list.range));
+    set(&object, "levels", &Float64Array::from(list.levels.as_slice()));
     set(&object, "lines", &list.lines.iter().map(lines).collect::<Array>());
     set(&object, "solids", &list.solids.iter().map(solids).collect::<Array>());
     set(&object, "size", &size);

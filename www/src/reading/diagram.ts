@@ -11,6 +11,10 @@ const REACH = 9;
 const LINE_REACH = 6;
 const RADIUS = 3.5;
 
+/** Corners around the middle: of a triangle that points downwards, and of a square that stands on a corner. */
+const TRIANGLE = [[-1.05, -0.65], [1.05, -0.65], [0, 1.1]] as const; // prettier-ignore
+const SQUARE = [[0, -1], [1, 0], [0, 1], [-1, 0]] as const; // prettier-ignore
+
 export interface DiagramEvents {
   /** The line is dragged; relative to the range. */
   threshold(value: number): void;
@@ -154,12 +158,11 @@ export class Diagram {
     }
     // The shapes of the glyphs on the surface.
     ctx.beginPath();
-    if (kind < 0) ctx.rect(x - 0.9 * radius, y - 0.9 * radius, 1.8 * radius, 1.8 * radius);
-    else if (kind > 0) ctx.arc(x, y, radius, 0, 2 * Math.PI);
+    if (kind > 0) ctx.arc(x, y, radius, 0, 2 * Math.PI);
     else {
       const reach = 1.25 * radius;
-      ctx.moveTo(x, y - reach);
-      for (const [dx, dy] of [[reach, 0], [0, reach], [-reach, 0]] as const) ctx.lineTo(x + dx, y + dy); // prettier-ignore
+      const corners = kind < 0 ? TRIANGLE : SQUARE;
+      for (const [dx, dy] of corners) ctx.lineTo(x + reach * dx, y + reach * dy);
       ctx.closePath();
     }
     ctx.lineWidth = ratio;

@@ -21,13 +21,13 @@ export class Paths {
     });
   }
 
-  /** Six numbers a segment; empty where there is no way. */
-  between({ extremum, saddle, kind }: Lit): Float32Array {
+  /** The two vertices of each segment; empty where there is no way. */
+  between({ extremum, saddle, kind }: Lit): Uint32Array {
     const { arcs } = this;
     const ends = this.ends[kind < 0 ? -1 : 1];
     const height = (line: number): number => -kind * arcs.heights[line]!;
     const first = ends.get(saddle)?.[0];
-    if (first === undefined) return new Float32Array(0);
+    if (first === undefined) return new Uint32Array(0);
     const start = height(first);
     /** The line over which each vertex was reached first: the fewest lines, then. */
     const reached = new Map<number, number>([[saddle, -1]]);
@@ -56,11 +56,11 @@ export class Paths {
     return lines;
   }
 
-  private segments(lines: readonly number[]): Float32Array {
-    const { offsets, points } = this.arcs;
+  private segments(lines: readonly number[]): Uint32Array {
+    const { offsets, vertices } = this.arcs;
     const joined: number[] = [];
     for (const line of lines)
-      for (let i = offsets[line]!; i + 1 < offsets[line + 1]!; i++) joined.push(...points.subarray(3 * i, 3 * i + 6));
-    return Float32Array.from(joined);
+      for (let i = offsets[line]!; i + 1 < offsets[line + 1]!; i++) joined.push(vertices[i]!, vertices[i + 1]!);
+    return Uint32Array.from(joined);
   }
 }

@@ -26,14 +26,11 @@ export function countsAt(steps: Steps, delta: number): Counts {
   return { minima: steps.minima[row]!, maxima: steps.maxima[row]!, saddles: steps.saddles[row]! };
 }
 
-/** The critical points that are left at δ. At 0 all are, even those that only their number tells from an equal neighbour. */
-export function criticalAt(
-  { vertices, kinds, vanishesAt }: Hierarchy,
-  delta: number,
-): { vertices: Uint32Array; kinds: Int8Array } {
-  if (delta === 0) return { vertices, kinds };
-  const stays = (_: number, k: number): boolean => vanishesAt[k]! > delta;
-  return { vertices: vertices.filter(stays), kinds: kinds.filter(stays) };
+/** Whether a critical point is left at δ. At 0 all are, even those that only their number tells from an equal neighbour. */
+export function staysAt({ vertices, vanishesAt }: Hierarchy, delta: number): (vertex: number) => boolean {
+  if (delta === 0) return () => true;
+  const left = new Set(vertices.filter((_, k) => vanishesAt[k]! > delta));
+  return (vertex) => left.has(vertex);
 }
 
 /** The δ at which some line has a corner; of more than can be drawn, the first and the last in each bin. */

@@ -1,8 +1,8 @@
 /** The worker's side of the methods: runs the chosen one and reports on it. */
 import { Smoother } from 'morse-smooth';
 import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
-import { rangeOf } from '../display';
 import { keptExtrema, thresholdOf } from '../findings';
+import { rangeOf } from '../measures';
 import type { AfterReport, Found, Settings } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
 import { byElements } from './settings';
