@@ -129,7 +129,7 @@ fn is_scientific(top: i32, fine: i32) -> bool {
     let plain = top.max(0) + 1 + if fine < 0 { 1 - fine } else { 0 };
     let exponent = 1 + i32::from(top < 0) + i32::from(top.abs() > 9) + i32::from(top.abs() > 99);
     let scientific = count + i32::from(count > 1) + 1 + exponent;
-    (top >= LARGE || top < SMALL) && scientific < plain
+    !(SMALL..LARGE).contains(&top) && scientific < plain
 }
 
 /// 1, 2 or 5 times a power of ten.
