@@ -1,4 +1,6 @@
 //! Reads a mesh with its fields and prints the critical points of one: `cargo run --example critical_points -- file field`.
+#![allow(clippy::print_stdout, reason = "it is what the example is for")]
+
 use morse_smooth::{field::*, io::ReadOptions, mesh};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,5 +1,7 @@
 //! Smooths a field, keeps its important critical points and writes both fields with their mesh:
 //! `cargo run --release --example keep -- kept.ply`.
+#![allow(clippy::print_stdout, reason = "it is what the example is for")]
+
 use morse_smooth::{field::*, io::*, mesh, operators::LaplacianWeights, smooth::*};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
