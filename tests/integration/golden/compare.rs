@@ -90,7 +90,7 @@ fn side_by_side(expected: &Image, actual: &Image) -> Image {
     strip
 }
 
-pub(crate) fn encode(image: &Image) -> Vec<u8> {
+pub(super) fn encode(image: &Image) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, image.width as u32, image.height as u32);
     encoder.set_color(png::ColorType::Rgb);

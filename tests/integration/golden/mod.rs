@@ -4,7 +4,7 @@
 //! `UPDATE_GOLDEN=1 cargo test --features render golden` makes the files anew; look at them before they are committed.
 
 mod cases;
-pub(crate) mod compare;
+mod compare;
 mod rules;
 
 use std::path::Path;
@@ -19,7 +19,7 @@ fn folders() -> Folders {
 #[test]
 fn golden_pictures_are_as_they_were() {
     let folders = folders();
-    let update = std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value != "0" && value != "");
+    let update = std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value != "0" && !value.is_empty());
     let cases = cases::read(&folders.golden);
     let failures: Vec<String> = cases
         .iter()

@@ -116,18 +116,21 @@ pub(crate) fn error(pixel: Rgb, expected: [f64; 3]) -> f64 {
     (0..3).map(|c| (f64::from(pixel[c]) - expected[c]).abs()).fold(0.0, f64::max)
 }
 
+/// Points and triangles.
+pub(crate) type Part = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
 /// Two triangles: corners a, b, c, d in a row around.
-pub(crate) fn quad(corners: [[f64; 3]; 4]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+pub(crate) fn quad(corners: [[f64; 3]; 4]) -> Part {
     (corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]])
 }
 
 /// The square around (x, y, z) with sides of length 2r, facing along z.
-pub(crate) fn tile(x: f64, y: f64, z: f64, r: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+pub(crate) fn tile(x: f64, y: f64, z: f64, r: f64) -> Part {
     quad([[x - r, y - r, z], [x + r, y - r, z], [x + r, y + r, z], [x - r, y + r, z]])
 }
 
 /// One mesh of several parts.
-pub(crate) fn united(parts: &[(Vec<[f64; 3]>, Vec<[u32; 3]>)]) -> TriMesh {
+pub(crate) fn united(parts: &[Part]) -> TriMesh {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for (points, corners) in parts {
         let first = positions.len() as u32;

@@ -4,7 +4,7 @@ use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes;
 use morse_smooth::render::{Colormap, DrawOptions, Glyphs, Levels, Scene, SnapshotOptions};
 
-use super::image::{Image, bare, coordinate, draw, error, from, lit, tile, united};
+use super::image::{Image, Part, bare, coordinate, draw, error, from, lit, tile, united};
 use super::tracer::{Eye, coverage};
 use crate::support::mesh;
 
@@ -129,7 +129,7 @@ fn edges_are_smoothed_by_how_much_of_a_pixel_they_cover() {
 fn neighbours_leave_no_gap() {
     // All of one colour: an edge inside would show.
     let values = vec![1.0; 400];
-    let grid = morse_smooth::mesh::shapes::grid(20, 20).unwrap();
+    let grid = shapes::grid(20, 20).unwrap();
     let mut random = shapes::Random::new(3);
     let mut positions = grid.positions().to_vec();
     for p in positions.chunks_exact_mut(3).filter(|p| p[..2].iter().all(|&x| x > 0.0 && x < 1.0)) {
@@ -148,11 +148,11 @@ fn neighbours_leave_no_gap() {
 }
 
 /// Small tiles that span a box, so that what is inside does not change what the camera sees.
-fn corners_of_a_box() -> Vec<(Vec<[f64; 3]>, Vec<[u32; 3]>)> {
+fn corners_of_a_box() -> Vec<Part> {
     vec![tile(-2.0, -1.5, -1.0, 0.05), tile(2.0, 1.5, 1.0, 0.05)]
 }
 
-fn with(parts: &[(Vec<[f64; 3]>, Vec<[u32; 3]>)]) -> TriMesh {
+fn with(parts: &[Part]) -> TriMesh {
     let mut all = corners_of_a_box();
     all.extend_from_slice(parts);
     united(&all)
