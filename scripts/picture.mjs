@@ -1,6 +1,6 @@
-// Takes the README's pictures from the real page: docs/picture.webp, the opening example before and after smoothing,
-// docs/reading.webp, the Earth's geoid simplified, with its basins, its Morse complex and the plots, and docs/constraints.webp, a
-// protein's potential interpolated at its persistent critical points, with the report.
+// Takes the README's pictures of the real page: docs/reading.webp, the Earth's geoid simplified, with its basins, its Morse complex
+// and the plots, and docs/constraints.webp, a protein's potential interpolated at its persistent critical points, with the report.
+// (docs/sheet.png is drawn by examples/sheet.mjs.)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { NO_BROWSER, findBrowser } from './lib/browser.mjs';
 import { Problem, main, say } from './lib/log.mjs';
@@ -8,8 +8,6 @@ import { inRoot } from './lib/paths.mjs';
 import { build } from './build.mjs';
 import { setUp } from './setup.mjs';
 
-/** Of the page around the two views: what is left for them makes a picture as wide as a README's column. */
-const VIEWPORT = { width: 1240, height: 1115 };
 const READING = { width: 1240, height: 860 };
 /** Wide enough for the report's four columns. */
 const CONSTRAINTS = { width: 1480, height: 880 };
@@ -31,12 +29,8 @@ await main(async () => {
   const { startBrowser } = await import('../tests/browser/driver.js');
   const driver = await startBrowser();
   try {
-    const page = await driver.open({ viewport: VIEWPORT, deviceScaleFactor: SCALE });
+    const page = await driver.open({ viewport: READING, deviceScaleFactor: SCALE });
     if ((await page.settled()) !== 'ready') throw new Problem('The page does not come up: npm test says more.');
-    // Waits for the next frame, which is the first with everything in it.
-    await page.look('after');
-    await save(page, 'picture', await page.page.locator('.views').screenshot());
-
     await page.after(() => page.at('example').selectOption('earth'));
     await page.after(() => page.at('method').selectOption('simplify'));
     await page.after(() => page.at('colouring').selectOption('minima'));

@@ -47,8 +47,7 @@ pub(super) fn draw_legend(pixmap: &mut PixmapMut<'_>, rectangle: &Rectangle, lis
     let (left, top) = (rectangle.x.round(), (rectangle.y + 0.5 * capital_height(text_size)).round());
     let width = (BAR * text_size).round().min(rectangle.width.floor());
     let height = bar_height(rectangle.height, text_size).round();
-    // Written so that what is not a number is too narrow.
-    if labels.is_empty() || !(width > 2.0 * frame) {
+    if labels.is_empty() || width.is_nan() || width <= 2.0 * frame {
         return;
     }
     let (right, bottom) = (left + width, top + height);
@@ -107,7 +106,7 @@ fn labels(range: [f64; 2], height: f64, text_size: f64) -> Vec<Label> {
     }
     let [low, high] = range;
     let label = |value: f64, step: f64| Label { place: place(value, range), text: tick_label(value, range, step) };
-    if !(low < high) {
+    if low >= high {
         return vec![label(low, FINE_ALONE * low.abs())];
     }
     let fine = FINE * (high - low);

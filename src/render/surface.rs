@@ -11,6 +11,8 @@ const FLAT: f64 = 0.75;
 const PLANE: f64 = 0.02;
 /// Three times the enclosed volume over area and radius is about 1 for a ball and 0 for a sheet, which has no inside.
 const INSIDE: f64 = 0.1;
+/// The same of closed surfaces: they have an inside, however thin.
+const ROUNDING: f64 = 1e-9;
 
 const NONE: u32 = u32::MAX;
 
@@ -210,17 +212,22 @@ fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) 
         seen[first as usize] = true;
         patch.clear();
         patch.push(first);
-        let mut next = 0;
+        let (mut next, mut is_closed) = (0, true);
         while next < patch.len() {
             let t = patch[next];
             next += 1;
             for edge in connectivity.triangle_edges()[t as usize] {
-                if let Some(other) = connectivity.across(t, edge)
-                    && !seen[other as usize]
-                {
+                let Some(other) = connectivity.across(t, edge) else {
+                    is_closed = false;
+                    continue;
+                };
+                let differ = is_forward(connectivity, t, edge) == is_forward(connectivity, other, edge);
+                let turn = turned[t as usize] != differ;
+                if seen[other as usize] {
+                    is_closed &= turned[other as usize] == turn;
+                } else {
                     seen[other as usize] = true;
-                    let differ = is_forward(connectivity, t, edge) == is_forward(connectivity, other, edge);
-                    turned[other as usize] = turned[t as usize] != differ;
+                    turned[other as usize] = turn;
                     patch.push(other);
                 }
             }
@@ -234,7 +241,7 @@ fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) 
             area += norm(faces[t as usize]);
             count += usize::from(turned[t as usize]);
         }
-        let has_inside = volume.abs() > INSIDE * area;
+        let has_inside = volume.abs() > if is_closed { ROUNDING } else { INSIDE } * area;
         // What has no inside is left as most of it is given.
         if if has_inside { volume < 0.0 } else { 2 * count > patch.len() } {
             for &t in &patch {

@@ -2,10 +2,10 @@
 //!
 //! All in decimal and whole numbers: 3 · 0.1 is not 0.3 in doubles, and logarithms differ from platform to platform.
 
-use lexical_parse_float::FromLexical;
-
 /// More ticks than any axis has room for; the bound keeps a slip from filling the memory.
 const MOST: usize = 1000;
+/// Powers of ten up to this one are doubles.
+const EXACT: i32 = 22;
 /// Decimal places from the first digit of a double to beyond its last one.
 const PLACES: i32 = 16;
 /// Numbers from a million on, and those below a thousandth, are written with an exponent where that is shorter.
@@ -19,7 +19,8 @@ const LEAST: i32 = -400;
 /// Round numbers in a range: multiples of 1, 2 or 5 times a power of ten, as many as there may be but at most `most`.
 ///
 /// # Properties
-/// Ascending, and in \[low, high\], ends included. Each is the double nearest to its decimal, so that 0.3 is `0.3`. A range of one
+/// Ascending, and in \[low, high\], ends included. Each is the double nearest to its decimal, so that 0.3 is `0.3`; for
+/// ticks below 1e-22 apart, or above 1e22, nearly so. A range of one
 /// value has this one. None where a number is not finite or the larger one comes first, and never more than 1000.
 ///
 /// # Example
@@ -56,7 +57,7 @@ pub fn round_ticks(low: f64, high: f64, most: usize) -> Vec<f64> {
         step = step.next();
     }
     let (step, first, count) = best;
-    let mut ticks: Vec<f64> = (first..first + count).map(|k| step.multiple(k)).collect();
+    let mut ticks: Vec<f64> = (first..first + count).map(|k| step.multiple(k).clamp(low, high)).collect();
     ticks.dedup();
     ticks
 }
@@ -128,7 +129,7 @@ fn is_scientific(top: i32, fine: i32) -> bool {
     let plain = top.max(0) + 1 + if fine < 0 { 1 - fine } else { 0 };
     let exponent = 1 + i32::from(top < 0) + i32::from(top.abs() > 9) + i32::from(top.abs() > 99);
     let scientific = count + i32::from(count > 1) + 1 + exponent;
-    (top >= LARGE || top < SMALL) && scientific < plain
+    !(SMALL..LARGE).contains(&top) && scientific < plain
 }
 
 /// 1, 2 or 5 times a power of ten.
@@ -158,8 +159,16 @@ impl Step {
     }
 
     fn multiple(self, k: i64) -> f64 {
-        let decimal = format!("{}e{}", k * self.times, self.place);
-        f64::from_lexical(decimal.as_bytes()).unwrap_or_default() + 0.0
+        let mut number = (k * self.times) as f64;
+        let mut left = self.place;
+        // One exact product or quotient, rounded once, within 22 places.
+        while left != 0 && number != 0.0 {
+            let places = left.abs().min(EXACT);
+            let factor = (0..places).fold(1.0, |power, _| 10.0 * power);
+            number = if left > 0 { number * factor } else { number / factor };
+            left -= places * left.signum();
+        }
+        number
     }
 }
 

@@ -3,7 +3,7 @@
 use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
 
-use crate::error::{Detail, Error, OptionError};
+use crate::error::{Detail, Error};
 
 /// What every exported function throws.
 pub struct Thrown(Error);
@@ -39,8 +39,4 @@ impl From<Thrown> for JsValue {
 pub(super) fn set(object: &Object, name: &str, value: &JsValue) {
     let set = Reflect::set(object, &JsValue::from_str(name), value);
     debug_assert!(set.is_ok(), "a new object takes properties");
-}
-
-pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
-    OptionError::InvalidOption { option: option.to_owned(), expected: expected.to_owned() }
 }

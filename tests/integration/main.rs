@@ -18,6 +18,8 @@ mod extremes;
 mod features;
 mod fem;
 mod filters;
+#[cfg(feature = "render")]
+mod golden;
 mod hierarchy;
 mod intrinsic;
 mod intrinsic_properties;
@@ -32,6 +34,8 @@ mod morse;
 mod operators;
 mod ordering;
 mod persistence;
+#[cfg(feature = "render")]
+mod pictures;
 mod readme;
 mod refusals;
 mod reuse;

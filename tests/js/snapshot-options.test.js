@@ -1,5 +1,5 @@
 // Options of pictures that are refused: none of them may do harm.
-import init, { Scene, sheet, snapshot } from 'morse-smooth/snapshot';
+import init, { MorseSmoothError, Scene, sheet, snapshot } from 'morse-smooth/snapshot';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { expectError } from './errors.js';
 import { field, shape, small } from './pictures.js';
@@ -177,9 +177,12 @@ describe('ingredients', () => {
   const complex = (change) => ({
     morseComplex: { vertices: [0, 1, 2, 3], offsets: [0, 2, 4], kinds: Int8Array.of(-1, 1), ...change },
   });
+  /** Sheets have nothing of one field, whatever is in it. */
   const refusedHere = (options, code, detail) => {
-    refused(options, code, detail);
+    expectError(() => scene.snapshot(field, options), code, detail);
+    expectError(() => snapshot(positions, triangles, field, options), code, detail);
     expectError(() => scene.drawList(field, options), code, detail);
+    expect(() => scene.sheet(field, field, options)).toThrow(MorseSmoothError);
   };
 
   it('that are well-formed are drawn', () => {
@@ -233,9 +236,9 @@ describe('ingredients', () => {
     ['offsets beyond the points', levels({ offsets: [0, 2, 5] }), 'levels'],
     ['offsets that descend', levels({ offsets: [0, 5, 4] }), 'levels'],
     ['too few lines', levels({ offsets: [0, 4] }), 'levels'],
-    ['too few levels', levels({ levels: [1] }), 'levels.levels'],
-    ['a level that is no number', levels({ levels: [1, NaN] }), 'levels.levels'],
-    ['too many flags', levels({ closed: new Uint8Array(3) }), 'levels.levels'],
+    ['too few levels', levels({ levels: [1] }), 'levels'],
+    ['a level that is no number', levels({ levels: [1, NaN] }), 'levels'],
+    ['too many flags', levels({ closed: new Uint8Array(3) }), 'levels'],
     ['a lost coordinate', levels({ points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0] }), 'levels'],
     ['NaN', levels({ points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, NaN] }), 'levels'],
     ['infinity', levels({ points: [0, 0, 0, 1, 0, 0, 0, -Infinity, 0, 0, 0, 1] }), 'levels'],

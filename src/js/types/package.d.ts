@@ -28,8 +28,8 @@ export default function init(options?: InitOptions): Promise<void>;
 /** What {@link init} takes. */
 export interface InitOptions {
   /**
-   * Where `morse_smooth_bg.wasm` is, or its content. Without it the file beside the script is fetched, and with
-   * `morse-smooth/inline` nothing is.
+   * Where the module's file is, or its content: `morse_smooth_bg.wasm`, or `morse_smooth_snapshot_bg.wasm` for
+   * `morse-smooth/snapshot`. Without it the file beside the script is fetched, and with `morse-smooth/inline` nothing is.
    */
   wasm?: URL | string | Request | Response | BufferSource | WebAssembly.Module;
 }

@@ -64,8 +64,9 @@ export interface SnapshotOptions extends DrawOptions {
 }
 
 /**
- * See {@link sheet}. `width` and `height` are those of each picture (default 600 × 560), and the title is above them all. What was
- * found on one field is not for two (`InapplicableOption`).
+ * See {@link sheet}. `width` and `height` are those of each picture without its colour bar (default 600 × 560), and the title is above
+ * them all; the whole sheet has at most 8192 pixels along a side. What was found on one field is not for two
+ * (`InapplicableOption`).
  */
 export interface SheetOptions extends SnapshotOptions {
   levels?: Numbers | { count: number };

@@ -4,7 +4,6 @@ mod constraints;
 mod smoothing;
 
 pub(super) use super::convert::is_absent;
-pub(super) use super::error::invalid;
 pub(super) use constraints::{ConstraintInput, from_rule};
 pub(super) use smoothing::{BILATERAL, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, read_smooth};
 
@@ -115,6 +114,10 @@ fn expected(option: &str) -> &'static str {
         "weld" | "binary" | "bounds" | "stars" => "true or false",
         _ => "a name in quotes",
     }
+}
+
+pub(super) fn invalid(option: &str, expected: &str) -> OptionError {
+    OptionError::invalid(option, expected)
 }
 
 fn unsupported(option: &str, value: &str) -> OptionError {

@@ -4,11 +4,10 @@ use js_sys::{Float64Array, Int8Array, Uint8Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::record::Record;
-use crate::error::{Error, Result};
+use crate::error::{Error, OptionError, Result};
 use crate::field::{CriticalKind, CriticalPoint, LevelSets, MorseComplex, Threshold};
 use crate::render::{Glyphs, Levels, Separatrices};
 use crate::wasm::convert::{bytes, copied, floats, ids};
-use crate::wasm::error::invalid;
 
 /// [`Levels`] that own what they hold.
 pub(super) enum LevelInput {
@@ -28,16 +27,13 @@ impl LevelInput {
             record.only(&[&["count"]])?;
             let expected = "a list of numbers, { count } or what `TriMesh.levelSets` returns";
             let count = record.integer("count", "an integer from 0 to 10000")?;
-            return Ok(Self::Count(count.ok_or_else(|| invalid("levels", expected))?));
+            return Ok(Self::Count(count.ok_or_else(|| OptionError::invalid("levels", expected))?));
         }
         let points = floats(array::<Float64Array>(&record, "points")?)?;
         let offsets = ids(array::<Uint32Array>(&record, "offsets")?)?;
         let levels = floats(array::<Float64Array>(&record, "levels")?)?;
         let closed: Vec<bool> =
             bytes(array::<Uint8Array>(&record, "closed")?)?.into_iter().map(|closed| closed != 0).collect();
-        if levels.len() != closed.len() || levels.iter().any(|level| !level.is_finite()) {
-            return Err(record.invalid("levels", "a finite number for each line").into());
-        }
         Ok(Self::Traced(LevelSets { points, offsets, levels, closed, edges: Vec::new(), parameters: Vec::new() }))
     }
 
@@ -97,7 +93,9 @@ impl ComplexInput {
         if record.get("vertices").is_none() || record.get("persistence").is_some() {
             record.only(&[&["persistence"]])?;
             let expected = "true, false, { persistence } or what `TriMesh.morseComplex` returns";
-            return Ok(Self::Above(record.number("persistence")?.ok_or_else(|| invalid("morseComplex", expected))?));
+            return Ok(Self::Above(
+                record.number("persistence")?.ok_or_else(|| OptionError::invalid("morseComplex", expected))?,
+            ));
         }
         let vertices = ids(array::<Uint32Array>(&record, "vertices")?)?;
         let offsets = ids(array::<Uint32Array>(&record, "offsets")?)?;

@@ -6,7 +6,6 @@ use super::ingredients::{ComplexInput, LevelInput, PointInput};
 use super::record::Record;
 use crate::error::{Error, OptionError, Result};
 use crate::render::{Camera, Colormap, DrawOptions, SheetOptions, SnapshotOptions};
-use crate::wasm::error::invalid;
 
 /// The names that all three functions take.
 pub(super) const DRAW: &[&str] = &["colormap", "range", "levels", "bands", "criticalPoints", "morseComplex"];
@@ -99,7 +98,7 @@ impl Input {
 fn colormap(record: &Record, option: &str) -> Result<Option<Colormap>, OptionError> {
     let named = |name: String| {
         Colormap::named(&name).map_err(|error| match error {
-            OptionError::InvalidOption { expected, .. } => invalid(option, &expected),
+            OptionError::InvalidOption { expected, .. } => OptionError::invalid(option, &expected),
             other => other,
         })
     };
@@ -117,7 +116,7 @@ fn camera(value: &JsValue) -> Result<Camera, OptionError> {
 pub(super) fn placed(error: Error) -> Error {
     match error {
         Error::Option(OptionError::InvalidOption { option, expected }) if option == "persistence" => {
-            invalid("morseComplex.persistence", &expected).into()
+            OptionError::invalid("morseComplex.persistence", &expected).into()
         }
         other => other,
     }

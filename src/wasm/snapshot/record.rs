@@ -5,7 +5,6 @@ use wasm_bindgen::{JsCast, JsValue};
 
 use crate::error::OptionError;
 use crate::wasm::convert::is_absent;
-use crate::wasm::error::invalid;
 
 /// The entries of an object that are not left to their defaults, which says in its errors where it stands.
 pub(super) struct Record {
@@ -46,7 +45,7 @@ impl Record {
 
     /// The error for an option here.
     pub(super) fn invalid(&self, name: &str, expected: &str) -> OptionError {
-        invalid(&self.path(name), expected)
+        OptionError::invalid(&self.path(name), expected)
     }
 
     fn path(&self, name: &str) -> String {
