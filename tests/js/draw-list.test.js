@@ -149,6 +149,15 @@ describe('a draw list', () => {
     for (let k = 3; k < colours.length; k++) expect(Math.abs(colours[k] - colours[k - 3])).toBeLessThanOrEqual(4);
   });
 
+  it('says its levels, ascending and each once', () => {
+    const width = high - low;
+    const { levels } = list({ levels: { count: 3 } });
+    expect(levels).toBeInstanceOf(Float64Array);
+    [0.25, 0.5, 0.75].forEach((share, k) => expect(levels[k]).toBeCloseTo(low + share * width, 12));
+    expect(list({ levels: [1, -1, 1, 99] }).levels).toEqual(Float64Array.of(-1, 1, 99));
+    expect(list({ levels: [] }).levels).toEqual(new Float64Array(0));
+  });
+
   it('has steps in its colours between bands', () => {
     const levels = [-1, 0, 0.25, 1.5];
     const { colours, range } = list({ bands: true, levels: [...levels, -99, 99] });

@@ -97,7 +97,8 @@ same<[typeof centre, typeof scale], [[number, number, number], number]>(true);
 
 const drawing: api.DrawOptions = { levels: [1, 2], bands: true, colormap: names[0], range: [0, 1] };
 const list: api.DrawList = scene.drawList(heat, drawing);
-const { shades, colours, range, lines, solids, size, light } = list;
+const { shades, colours, range, levels, lines, solids, size, light } = list;
+same<typeof levels, Float64Array>(true);
 same<[typeof shades, typeof colours, typeof range], [Float32Array, Uint8Array, [number, number]]>(true);
 same<[typeof lines, typeof solids], [api.Lines[], api.Solids[]]>(true);
 same<[typeof size, typeof light], [api.SolidSize, api.Light]>(true);

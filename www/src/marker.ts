@@ -26,8 +26,8 @@ export class Marker {
   private readonly hiddenPath = new CurveLayer({ ghost: true });
 
   constructor() {
-    const layers = [this.ghosts, this.glyphs, this.path, this.hiddenPath];
-    // Over all that is drawn on the surface.
+    // Over all that is drawn on the surface; what is hidden first, lest it shine through the glyphs.
+    const layers = [this.hiddenPath, this.ghosts, this.path, this.glyphs];
     layers.forEach(({ group }, k) => (group.renderOrder = 1 + k));
     this.group.add(...layers.map(({ group }) => group));
   }
