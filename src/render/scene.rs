@@ -127,7 +127,7 @@ impl Scene {
 /// bands and the Morse complex, and a bar that says which colour is which value.
 ///
 /// # Properties
-/// The same bytes on every platform. Red, green and blue, eight bits each, on white. Level sets are drawn within 0.6 pixels of where
+/// The same bytes on every platform. Red, green and blue, eight bits each, on white. Level sets are drawn within a pixel of where
 /// they are. O(vertices + triangles + pixels).
 ///
 /// # Errors
