@@ -13,9 +13,10 @@ use crate::render::draw_list::DrawList;
 use crate::render::style;
 
 const NOTHING: u32 = u32::MAX;
-/// How far a line may lie behind the surface that it is drawn on: relative, for rounding, and as a part of what the depth changes
-/// over the width of a sample, up to a limit for triangles that are seen edge-on.
-const ROUNDING: f64 = 3e-4;
+/// How far a line may lie behind the surface that it is drawn on: relative, for rounding; as a part of what the depth changes over
+/// the width of a sample, for corners that lie on a grid; the latter up to a limit, for triangles that are seen edge-on.
+const ROUNDING: f64 = 3e-5;
+const SNAP: f64 = 0.05;
 const STEEPEST: f64 = 0.02;
 
 pub(super) struct Strip {
@@ -205,9 +206,11 @@ impl Strip {
             if triangle == NOTHING {
                 return true;
             }
-            let depth = f64::from(self.depths[place]);
-            let steepness = Plane::of(facets, triangle).map_or(0.0, |plane| plane.steepness());
-            let tolerance = ROUNDING * depth + steepness.min(STEEPEST * depth);
+            // Its depth where the point is: if the point is on it, the same but for rounding.
+            let Some(plane) = Plane::of(facets, triangle) else { return true };
+            let grid = GRID as f64;
+            let depth = plane.depth(x * grid, y * grid);
+            let tolerance = ROUNDING * depth + (SNAP * plane.steepness()).min(STEEPEST * depth);
             f64::from(probe.depth) >= depth - tolerance
         })
     }

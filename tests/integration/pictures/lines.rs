@@ -156,6 +156,27 @@ fn lines_behind_a_sheet_are_hidden_and_those_in_front_are_not() {
 }
 
 #[test]
+fn lines_on_the_other_side_of_a_thin_wall_are_hidden() {
+    for gap in [0.02, 0.005, 0.001] {
+        let mesh = united(&[tile(0.0, 0.0, 0.0, 1.0), tile(0.0, 0.0, -gap, 0.9)]);
+        let values: Vec<f64> =
+            (0..8).map(|v| if v < 4 { 0.0 } else { 10.0 + mesh.position(v)[1] + 0.3 * mesh.position(v)[0] }).collect();
+        for direction in [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 2.0, 1.0]] {
+            let mut options = from(direction, bare(300, 220));
+            options.draw.range = Some([0.0, 12.0]);
+            let without = draw(&mesh, &values, &options);
+            options.draw.levels = Levels::At(&[9.2, 9.6, 10.0, 10.3, 10.6]);
+            let (count, _) = draw(&mesh, &values, &options).difference(&without);
+            assert_eq!(count, 0, "through a wall of {gap} from {direction:?}");
+            let behind = from(direction.map(|x| -x), options);
+            options.draw.levels = Levels::None;
+            let without = draw(&mesh, &values, &from(direction.map(|x| -x), options));
+            assert!(draw(&mesh, &values, &behind).difference(&without).0 > 200);
+        }
+    }
+}
+
+#[test]
 fn a_line_is_seen_as_far_as_nothing_is_in_front() {
     let (mesh, values) = sheets(0.5, 1.0);
     let mut options = from([0.0, 0.0, 1.0], bare(450, 450));

@@ -32,6 +32,12 @@ fn rows(image: &Image, from: usize, to: usize) -> Image {
     Image { height: to - from, pixels, ..*image }
 }
 
+/// Lines are drawn in single precision, so that their place in the sheet shows in the last step of a few pixels.
+fn alike(a: &Image, b: &Image) {
+    let (count, most) = a.difference(b);
+    assert!(count < 40 && most <= 2, "{count} pixels differ, by up to {most}");
+}
+
 fn extremes(values: &[f64]) -> [f64; 2] {
     [values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max)]
 }
@@ -48,8 +54,8 @@ fn a_sheet_is_three_snapshots() {
         assert_eq!((image.width, image.height), (360, 90));
         let mut picture = options.picture;
         picture.draw.range = Some([a.min(c), b.max(d)]);
-        assert!(columns(&image, 0, 120) == draw(&mesh, &before, &picture));
-        assert!(columns(&image, 120, 240) == draw(&mesh, &after, &picture));
+        alike(&columns(&image, 0, 120), &draw(&mesh, &before, &picture));
+        alike(&columns(&image, 120, 240), &draw(&mesh, &after, &picture));
         let largest = given.unwrap_or(largest);
         let mut picture = bare(120, 90);
         picture.draw.colormap = Colormap::CoolWarm;
@@ -62,7 +68,7 @@ fn a_sheet_is_three_snapshots() {
 fn without_a_difference_all_of_it_is_in_the_middle() {
     let (mesh, before, _) = fields();
     let image = Image::decode(&sheet(&mesh, &before, &before, &plain(120, 90)).unwrap());
-    assert!(columns(&image, 0, 120) == columns(&image, 120, 240));
+    alike(&columns(&image, 0, 120), &columns(&image, 120, 240));
     // Only the light varies: grey, as the middle of the map.
     let last = columns(&image, 240, 360);
     assert!(last.pixels.iter().all(|[r, g, b]| r.abs_diff(*g) <= 2 && g.abs_diff(*b) <= 2));
@@ -129,7 +135,7 @@ fn titles_take_rows_above_and_leave_the_pictures_alone() {
     let with = Image::decode(&sheet(&mesh, &before, &after, &options).unwrap());
     let above = with.height - without.height;
     assert!(with.width == without.width && above > 20);
-    assert!(rows(&with, above, with.height) == without);
+    alike(&rows(&with, above, with.height), &without);
     // Text in all places where there is some, apart from the borders.
     let ink = |from, to, top, bottom| rows(&columns(&with, from, to), top, bottom).extent();
     let half = above / 2;
@@ -150,7 +156,7 @@ fn a_title_is_above_the_picture() {
     let above = (1..100)
         .find(|&above| {
             let rest = draw(&mesh, &before, &SnapshotOptions { height: 200 - above as u32, ..options });
-            rows(&with, above, 200) == rest
+            rows(&with, above, 200).difference_above(&rest, 2).0 == 0
         })
         .expect("a picture below the title");
     let title = rows(&with, 0, above).extent().expect("a title");
