@@ -12,8 +12,8 @@ export const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symb
  * realm does not, as the module tells arrays by their class.
  */
 export function toNumbers(value, argument) {
-  if (value instanceof Float64Array) return value;
   const name = typedArrayName(value);
+  if (name === 'Float64Array' && value instanceof Float64Array) return value;
   if (name === 'Float64Array' || name === 'Float32Array') return new Float64Array(value);
   if (!Array.isArray(value)) throw invalidArgument(argument, NUMBERS);
   const numbers = new Float64Array(value.length);

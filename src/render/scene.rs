@@ -128,7 +128,7 @@ impl Scene {
 ///
 /// # Properties
 /// The same bytes on every platform. Red, green and blue, eight bits each, on white. Level sets are drawn within a pixel of where
-/// they are. O(vertices + triangles + pixels).
+/// they are. O(vertices + triangles + pixels), and what the lines are long.
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `NonFiniteLevel`; `IndexOutOfBounds` for a vertex that does not exist;

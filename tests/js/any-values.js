@@ -35,7 +35,9 @@ export function takeAnyValues(methods) {
     expectError(() => method([1, 2, 3, -Infinity]), 'NonFiniteValue', { vertex: 3 });
     expectError(() => method([1, '2', 3, 4]), 'InvalidArgument', { argument: 'values', index: 1 });
     expectError(() => method([1, 2, 3, 4n]), 'InvalidArgument', { argument: 'values', index: 3 });
-    for (const bad of ['1234', undefined, null, {}, new Int32Array(4)]) {
+    // The last two are arrays by their prototype alone.
+    const pretenders = [Object.create(Float64Array.prototype), new Proxy(new Float64Array(4), {})];
+    for (const bad of ['1234', undefined, null, {}, new Int32Array(4), ...pretenders]) {
       expectError(() => method(bad), 'InvalidArgument', { argument: 'values' });
     }
     expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');

@@ -55,9 +55,17 @@ export function sheet(positions, triangles, before, after, options) {
 
 function once(positions, triangles, draw) {
   const scene = new Scene(positions, triangles);
+  let png;
   try {
-    return draw(scene);
-  } finally {
-    scene.free();
+    png = draw(scene);
+  } catch (error) {
+    try {
+      scene.free();
+    } catch {
+      // What went wrong first is what the caller has to know.
+    }
+    throw error;
   }
+  scene.free();
+  return png;
 }

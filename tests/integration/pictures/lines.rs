@@ -94,6 +94,34 @@ fn level_sets_of_the_distance_are_circles() {
 }
 
 #[test]
+fn corners_are_rounded_a_little() {
+    // Level sets of |x − ½| + |y − ½| on these cells are squares that stand on a corner.
+    let mesh = shapes::grid(3, 3).unwrap();
+    let values: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| (p[0] - 0.5).abs() + (p[1] - 0.5).abs()).collect();
+    for size in [300, 900] {
+        let mut options = bare(size, size);
+        options.draw.levels = Levels::At(&[0.25]);
+        let ink = Ink::of(&mesh, &values, &options);
+        let [left, right, top, bottom] = edges(&ink.without);
+        let (middle, reach) = ([0.5 * (left + right), 0.5 * (top + bottom)], 0.25 * (right - left));
+        // Inside a corner two strokes meet, which moves the darkest place inwards by about as much again.
+        let tip = |x: f64, y: f64| {
+            (-8..=24)
+                .map(|step| reach - 0.25 * f64::from(step))
+                .max_by(|&r, &s| {
+                    let at = |r: f64| ink.sample(middle[0] + r * x, middle[1] - r * y);
+                    at(r).total_cmp(&at(s))
+                })
+                .unwrap()
+        };
+        for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+            let found = tip(x, y);
+            assert!((found - reach).abs() <= 1.5, "{size}: a corner at {found}, not at {reach}");
+        }
+    }
+}
+
+#[test]
 fn lines_are_as_wide_in_proportion_to_the_picture() {
     let mesh = shapes::grid(5, 5).unwrap();
     let values = coordinate(&mesh, 0);
