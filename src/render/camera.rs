@@ -85,6 +85,12 @@ impl View {
         Projected { x, y, depth }
     }
 
+    /// Whether a vector at a point leads away from the camera.
+    pub(super) fn is_away(&self, place: [f64; 3], vector: [f64; 3]) -> bool {
+        let ([x, y, z], at, along) = (self.eye, self.turn(place), self.turn(vector));
+        dot([x - at[0], y - at[1], z - at[2]], along) < 0.0
+    }
+
     /// A vector as the camera sees it: right, up, towards the camera.
     pub(super) fn turn(&self, vector: [f64; 3]) -> [f64; 3] {
         [dot(vector, self.axes[0]), dot(vector, self.axes[1]), dot(vector, self.axes[2])]

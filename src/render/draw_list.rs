@@ -89,6 +89,8 @@ pub struct Solids {
     pub places: Vec<[f64; 3]>,
     /// Unit vectors along which the axes stand.
     pub axes: Vec<[f64; 3]>,
+    /// Whether the surface is open there, so that the axis is turned to the side that is looked at.
+    pub both_sides: Vec<bool>,
     /// Of one solid, as drawn.
     pub radius: f64,
     /// How many radii it stands above the surface.
@@ -96,7 +98,6 @@ pub struct Solids {
 }
 
 impl DrawList {
-    /// `levels_of_all`: in which of the lists below levels were given, see [`Levels`].
     pub(super) fn new(
         mesh: &TriMesh,
         surface: &Surface,
@@ -139,8 +140,8 @@ impl DrawList {
 
 /// Where a value is in a range; in the middle where that is one value.
 fn shade(value: f64, [low, high]: [f64; 2]) -> f64 {
-    // Far outside, nothing but the side matters, and numbers stay small enough to interpolate between.
-    if high > low { ((value - low) / (high - low)).clamp(-1e6, 1e6) } else { 0.5 }
+    // Triangles reach from inside a range to far outside: only what would not fit single precision is cut.
+    if high > low { ((value - low) / (high - low)).clamp(-1e30, 1e30) } else { 0.5 }
 }
 
 /// The levels, ascending, and their lines.
@@ -277,8 +278,9 @@ fn solids(mesh: &TriMesh, surface: &Surface, points: &[CriticalPoint], size: Sol
         };
         let places = vertices.iter().map(|&v| surface.place(mesh.position(v))).collect();
         let axes = vertices.iter().map(|&v| surface.normal_at(v)).collect();
+        let both_sides = vertices.iter().map(|&v| surface.is_open_at(mesh, v)).collect();
         let (glow, lift) = (style::GLOW, style::LIFT);
-        all.push(Solids { role, shape, color, rim, glow, vertices, places, axes, radius, lift });
+        all.push(Solids { role, shape, color, rim, glow, vertices, places, axes, both_sides, radius, lift });
     }
     all
 }

@@ -30,8 +30,8 @@ pub(super) const OCTAHEDRON_RIM: Rim = Rim { color: RIM, scale: 1.36 };
 pub(super) const BALL_RIM: Rim = Rim { color: RIM, scale: 1.28 };
 /// Sides that face away from the light keep their colour.
 pub(super) const GLOW: f64 = 0.35;
-/// Radii above the surface at which solids stand, so that most of them is seen.
-pub(super) const LIFT: f64 = 0.8;
+/// Radii above the surface at which solids stand, so that most of them is seen, and the rims all around them.
+pub(super) const LIFT: f64 = 0.9;
 /// Many solids cover about an eighth of a surface of area 1; a few are of a set size.
 pub(super) const SIZE: SolidSize = SolidSize { cover: 0.04, least: 0.004, most: 0.02 };
 /// From so many on, balls are seen with a few pixels each and need not be round.

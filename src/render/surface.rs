@@ -53,6 +53,8 @@ pub struct Surface {
     pub area: f64,
     /// Where the corners of each vertex start; they follow one another.
     first_corner: Vec<u32>,
+    /// Whether each triangle belongs to a closed part of the surface, whose inside nobody sees.
+    closed: Vec<bool>,
 }
 
 impl Surface {
@@ -63,7 +65,7 @@ impl Surface {
         let connectivity = mesh.connectivity();
         let placed: Vec<[f64; 3]> = (0..mesh.vertex_count() as u32).map(|v| extent.place(mesh.position(v))).collect();
         let mut faces: Vec<[f64; 3]> = connectivity.triangles().iter().map(|t| face(&placed, t)).collect();
-        let turned = turned(connectivity, &placed, &faces);
+        let Turned { turned, closed } = turned(connectivity, &placed, &faces);
         for (face, &turned) in faces.iter_mut().zip(&turned) {
             if turned {
                 *face = face.map(|x| -x);
@@ -81,6 +83,7 @@ impl Surface {
             // Not the mesh's, which is too small a number for what is tiny.
             area: faces.iter().map(|&face| 0.5 * norm(face)).sum(),
             first_corner: Vec::new(),
+            closed,
         };
         surface.split(connectivity, &faces, &turned);
         for (corners, &turned) in surface.triangles.iter_mut().zip(&turned) {
@@ -106,6 +109,11 @@ impl Surface {
         let corners = self.first_corner[vertex as usize] as usize..self.first_corner[vertex as usize + 1] as usize;
         let sum = self.normals.as_chunks::<3>().0[corners].iter().fold([0.0; 3], |sum, &normal| plus(sum, normal));
         unit_or_up(sum)
+    }
+
+    /// Whether both sides of the surface can be seen at a vertex.
+    pub(super) fn is_open_at(&self, mesh: &TriMesh, vertex: u32) -> bool {
+        mesh.connectivity().star(vertex).iter().any(|&t| !self.closed[t as usize])
     }
 
     /// Gives every fan of triangles that hang together smoothly around a vertex a corner of its own, with its normal.
@@ -200,9 +208,16 @@ fn face(placed: &[[f64; 3]], corners: &[u32; 3]) -> [f64; 3] {
     cross(difference(q, p), difference(r, p))
 }
 
-/// Which triangles to turn over, so that neighbours agree and what has an inside faces outwards.
-fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) -> Vec<bool> {
+/// Which triangles are turned over, and which belong to a closed part.
+struct Turned {
+    turned: Vec<bool>,
+    closed: Vec<bool>,
+}
+
+/// Turns triangles over, so that neighbours agree and what has an inside faces outwards.
+fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) -> Turned {
     let mut turned = vec![false; faces.len()];
+    let mut closed = vec![false; faces.len()];
     let mut seen = vec![false; faces.len()];
     let mut patch = Vec::new();
     for first in 0..faces.len() as u32 {
@@ -240,6 +255,7 @@ fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) 
             volume += sign * dot(corner, faces[t as usize]);
             area += norm(faces[t as usize]);
             count += usize::from(turned[t as usize]);
+            closed[t as usize] = is_closed;
         }
         let has_inside = volume.abs() > if is_closed { ROUNDING } else { INSIDE } * area;
         // What has no inside is left as most of it is given.
@@ -249,7 +265,7 @@ fn turned(connectivity: &Connectivity, placed: &[[f64; 3]], faces: &[[f64; 3]]) 
             }
         }
     }
-    turned
+    Turned { turned, closed }
 }
 
 /// Whether normals are averaged across each edge.

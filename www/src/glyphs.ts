@@ -31,7 +31,8 @@ export function chosen(all: readonly Solids[], isChosen: (vertex: number) => boo
     const of = (points: Float32Array): Float32Array =>
       Float32Array.from({ length: 3 * members.length }, (_, i) => points[3 * members[Math.floor(i / 3)]! + (i % 3)]!);
     const vertices = Uint32Array.from(members, (k) => solids.vertices[k]!);
-    return { ...solids, vertices, places: of(solids.places), axes: of(solids.axes) };
+    const bothSides = Uint8Array.from(members, (k) => solids.bothSides[k]!);
+    return { ...solids, vertices, places: of(solids.places), axes: of(solids.axes), bothSides };
   });
   const radius = radiusOf(
     size,
@@ -50,6 +51,7 @@ export class GlyphLayer {
   /** Kept, since new ones would have to be compiled anew. */
   private readonly materials = new Map<Solids['kind'], Materials>();
   private geometries: BufferGeometry[] = [];
+  private pairs: { solids: Solids; rim: InstancedMesh; body: InstancedMesh }[] = [];
 
   /** `rim`: the colour around the glyphs, if it is another. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
   constructor(private readonly options: { rim?: number; ghost?: boolean; late?: boolean } = {}) {}
@@ -58,6 +60,7 @@ export class GlyphLayer {
     for (const child of [...this.group.children]) if (child instanceof InstancedMesh) child.dispose();
     for (const geometry of this.geometries) geometry.dispose();
     this.geometries = [];
+    this.pairs = [];
     this.group.clear();
   }
 
@@ -67,7 +70,23 @@ export class GlyphLayer {
       const { body, rim } = this.materialsOf(solids);
       const geometry = geometryOf(solids.shape);
       this.geometries.push(geometry);
-      this.group.add(instances(solids, geometry, rim, solids.rim.scale), instances(solids, geometry, body, 1));
+      const count = solids.vertices.length;
+      const pair = { rim: new InstancedMesh(geometry, rim, count), body: new InstancedMesh(geometry, body, count) };
+      this.group.add(pair.rim, pair.body);
+      this.pairs.push({ solids, ...pair });
+    }
+    this.place(null);
+  }
+
+  /** Turns the solids of open surfaces to the side that is seen from there, in the model's coordinates. */
+  face(eye: Vector3): void {
+    if (this.pairs.some(({ solids }) => solids.bothSides.includes(1))) this.place(eye);
+  }
+
+  private place(eye: Vector3 | null): void {
+    for (const { solids, rim, body } of this.pairs) {
+      place(solids, rim, solids.rim.scale, eye);
+      place(solids, body, 1, eye);
     }
   }
 
@@ -96,26 +115,24 @@ function geometryOf({ positions, normals, triangles }: Solids['shape']): BufferG
   return geometry;
 }
 
-function instances(
-  { vertices, places, axes, radius, lift }: Solids,
-  geometry: BufferGeometry,
-  material: MeshLambertMaterial | MeshBasicMaterial,
-  scale: number,
-): InstancedMesh {
-  const mesh = new InstancedMesh(geometry, material, vertices.length);
+function place(solids: Solids, mesh: InstancedMesh, scale: number, eye: Vector3 | null): void {
+  const { vertices, places, axes, bothSides, radius, lift } = solids;
   const axis = new Vector3();
-  const place = new Vector3();
+  const at = new Vector3();
+  const towards = new Vector3();
   const turn = new Quaternion();
   const matrix = new Matrix4();
   const size = new Vector3().setScalar(scale * radius);
   for (let k = 0; k < vertices.length; k++) {
     axis.fromArray(axes, 3 * k);
-    place.fromArray(places, 3 * k).addScaledVector(axis, lift * radius);
-    mesh.setMatrixAt(k, matrix.compose(place, upright(axis, turn), size));
+    at.fromArray(places, 3 * k);
+    if (eye && bothSides[k] && towards.subVectors(eye, at).dot(axis) < 0) axis.negate();
+    at.addScaledVector(axis, lift * radius);
+    mesh.setMatrixAt(k, matrix.compose(at, upright(axis, turn), size));
   }
+  mesh.instanceMatrix.needsUpdate = true;
   // Instances are spread over the whole mesh: there is nothing to gain from culling them.
   mesh.frustumCulled = false;
-  return mesh;
 }
 
 const UP = new Vector3(0, 1, 0);

@@ -202,6 +202,8 @@ export interface Solids {
   places: Float32Array;
   /** Unit vectors along which the axes stand. */
   axes: Float32Array;
+  /** 1 where the surface is open, so that the axis is to be turned to the side that is looked at; else 0. */
+  bothSides: Uint8Array;
   radius: number;
   lift: number;
 }

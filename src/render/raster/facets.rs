@@ -77,7 +77,9 @@ impl Facets {
     fn instances(&mut self, view: &View, frame: &Frame, solids: &Solids, scale: f64, material: Material) {
         self.materials.push((self.triangles.len(), material));
         let shape = &solids.shape;
-        for (&place, &axis) in solids.places.iter().zip(&solids.axes) {
+        for (k, (&place, &axis)) in solids.places.iter().zip(&solids.axes).enumerate() {
+            let is_away = solids.both_sides[k] && view.is_away(place, axis);
+            let axis = if is_away { [-axis[0], -axis[1], -axis[2]] } else { axis };
             let first = self.corners.len() as u32;
             let turn = |point: [f64; 3]| turned(point, axis);
             for (&point, &normal) in shape.positions.iter().zip(&shape.normals) {

@@ -90,6 +90,8 @@ fn solids(solids: &Solids) -> Object {
     set(&object, "vertices", &Uint32Array::from(solids.vertices.as_slice()));
     set(&object, "places", &singles(solids.places.as_flattened()));
     set(&object, "axes", &singles(solids.axes.as_flattened()));
+    let both_sides: Vec<u8> = solids.both_sides.iter().map(|&both| u8::from(both)).collect();
+    set(&object, "bothSides", &Uint8Array::from(both_sides.as_slice()));
     number(&object, "radius", solids.radius);
     number(&object, "lift", solids.lift);
     object
