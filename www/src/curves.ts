@@ -35,6 +35,12 @@ export class CurveLayer {
     for (const lines of [this.line, this.casing]) this.draw(lines, NOTHING, 0, 0, 1);
   }
 
+  /** Of what is shown, in pixels. */
+  get width(): number {
+    const shown = this.group.visible ? [this.line, this.casing].filter(({ visible }) => visible) : [];
+    return Math.max(0, ...shown.map(({ material }) => material.linewidth));
+  }
+
   show(isShown: boolean): void {
     this.group.visible = isShown;
   }

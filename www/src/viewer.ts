@@ -98,8 +98,8 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.background = new Color(BACKGROUND);
 
-    // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it.
-    const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 4 } as const;
+    // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it: see `makeRoom`.
+    const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetUnits: 4 } as const;
     this.plainMaterial = new MeshLambertMaterial(pushed);
     this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
     this.differenceMaterial = new MeshLambertMaterial(pushed);
@@ -194,6 +194,7 @@ export class Viewer {
   setLines(kinds: readonly Lines['kind'][], all: readonly Lines[]): void {
     for (const kind of kinds) this.curves[kind].clear();
     for (const lines of all) this.curves[lines.kind].set(segmentsOf(lines), lines.stroke);
+    this.makeRoom();
     this.draw();
   }
 
@@ -272,7 +273,15 @@ export class Viewer {
       this.edges.geometry = new WireframeGeometry(this.surface.geometry);
     }
     this.glyphs.group.visible = glyphs;
+    this.makeRoom();
     this.draw();
+  }
+
+  /** A line is as deep at its sides as in its middle: the surface, which may rise between them, steps back for the widest one. */
+  private makeRoom(): void {
+    const width = Math.max(...Object.values(this.curves).map((curves) => curves.width));
+    for (const material of [this.plainMaterial, this.basinMaterial, this.differenceMaterial])
+      material.polygonOffsetFactor = 0.75 + (this.renderer.getPixelRatio() * width) / 2;
   }
 
   private drawRings(): void {
