@@ -97,7 +97,8 @@ pub struct SnapshotOptions<'a> {
     pub height: u32,
     /// A bar that says which colour is which value; it is left out where the picture is too small for it. Default true.
     pub color_bar: bool,
-    /// Written above the picture. Default: nothing.
+    /// Written above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others
+    /// become boxes. Default: nothing.
     pub title: &'a str,
     /// From where to look. Default: from the front and a little from above, or from above on what lies flat.
     pub camera: Camera,

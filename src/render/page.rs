@@ -38,9 +38,9 @@ impl Text {
         Self { unit, size: TEXT * unit }
     }
 
-    /// The height that a line takes; none where nothing is written.
-    pub(super) fn line(&self, text: &str) -> f64 {
-        if text.is_empty() { 0.0 } else { (LINE * self.size).round() }
+    /// The height that a line above a picture takes; none where nothing is written, or the picture is too low.
+    pub(super) fn line(&self, text: &str, height: f64) -> f64 {
+        if text.is_empty() || height < LOWEST * self.size { 0.0 } else { (LINE * self.size).round() }
     }
 
     /// The width that a colour bar takes; none where the picture is too small for one.
@@ -62,11 +62,14 @@ impl Page {
         Ok(Self { picture: Picture::new(width as u32, height as u32, style::BACKGROUND)?, text })
     }
 
-    /// Writes into the middle of a line, as much of it as there is room for.
-    pub(super) fn title(&mut self, title: &str, left: f64, top: f64, width: f64) {
+    /// Writes into the middle of a line of that height, as much of it as there is room for.
+    pub(super) fn title(&mut self, title: &str, [left, top, width, height]: [f64; 4]) {
         let size = self.text.size;
+        if height <= 0.0 {
+            return;
+        }
         let title = fitted(title, size, width - size);
-        let baseline = top + 0.5 * (self.text.line(&title) + capital_height(size));
+        let baseline = top + 0.5 * (height + capital_height(size));
         if let Some(mut pixmap) = self.picture.pixmap() {
             draw_text(&mut pixmap, &title, left + 0.5 * width, baseline, size, Anchor::Middle, style::INK);
         }

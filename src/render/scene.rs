@@ -57,10 +57,10 @@ impl Scene {
         let list = self.draw_list(values, &options.draw)?;
         let (width, height) = (f64::from(options.width), f64::from(options.height));
         let text = Text::for_picture(width, height);
-        let above = text.line(options.title);
+        let above = text.line(options.title, height);
         let bar = if options.color_bar { text.bar(&list, width, height - above) } else { 0.0 };
         let mut page = Page::new(width, height, text)?;
-        page.title(options.title, 0.0, 0.0, width);
+        page.title(options.title, [0.0, 0.0, width, above]);
         let picture = [0.0, above, width - bar, height - above];
         page.picture(&self.surface, &list, &options.camera, picture)?;
         page.legend(&list, [width - bar, above, bar, height - above]);
@@ -85,17 +85,17 @@ impl Scene {
 
         let (width, height) = (f64::from(picture.width), f64::from(picture.height));
         let text = Text::for_picture(width, height);
-        let above = text.line(picture.title);
-        let title = options.titles.iter().map(|title| text.line(title)).fold(0.0, f64::max);
+        let above = text.line(picture.title, height);
+        let title = options.titles.iter().map(|title| text.line(title, height)).fold(0.0, f64::max);
         let bar = |list| if picture.color_bar { text.bar(list, f64::INFINITY, height) } else { 0.0 };
         let bars = [0.0, bar(&lists[1]), bar(&lists[2])];
         let total = [3.0 * width + bars[1] + bars[2], above + title + height];
         options.check_total(total)?;
         let mut page = Page::new(total[0], total[1], text)?;
-        page.title(picture.title, 0.0, 0.0, total[0]);
+        page.title(picture.title, [0.0, 0.0, total[0], above]);
         let mut left = 0.0;
         for ((list, title_of), bar) in lists.iter().zip(options.titles).zip(bars) {
-            page.title(title_of, left, above, width);
+            page.title(title_of, [left, above, width, title]);
             page.picture(&self.surface, list, &picture.camera, [left, above + title, width, height])?;
             page.legend(list, [left + width, above + title, bar, height]);
             left += width + bar;

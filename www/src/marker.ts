@@ -1,5 +1,6 @@
 /** What is pointed at, a critical point or a pair of them: large, with a bright rim, and a line between the two. */
 import { Group } from 'three';
+import type { Vector3 } from 'three';
 import type { Solids } from 'morse-smooth/snapshot';
 import { CurveLayer } from './curves';
 import { GlyphLayer, KINDS } from './glyphs';
@@ -36,13 +37,19 @@ export class Marker {
     for (const layer of [this.glyphs, this.ghosts, this.path, this.hiddenPath]) layer.clear();
   }
 
+  /** Turned to the side that is seen from there. */
+  face(eye: Vector3): void {
+    for (const layer of [this.glyphs, this.ghosts]) layer.face(eye);
+  }
+
   /** `look`: a solid of each kind. `path`: the two vertices of each segment. */
   set({ vertices, kinds }: LitPoints, look: readonly Solids[], places: Places, path: Uint32Array): void {
     const solids = look.map((solid) => {
       const members = vertices.filter((vertex, k) => KINDS[kinds[k]! + 1] === solid.kind && places.has(vertex));
       const axes = new Float32Array(3 * members.length);
       members.forEach((vertex, k) => places.axis(vertex).toArray(axes, 3 * k));
-      return { ...solid, vertices: members, places: places.positions(members), axes, radius: RADIUS };
+      const bothSides = new Uint8Array(members.length).fill(1);
+      return { ...solid, vertices: members, places: places.positions(members), axes, bothSides, radius: RADIUS };
     });
     const present = solids.filter((solid) => solid.vertices.length > 0);
     for (const layer of [this.glyphs, this.ghosts]) layer.set(present);

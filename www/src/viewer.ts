@@ -329,6 +329,9 @@ export class Viewer {
     if (this.frame) return;
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
+      const eye = this.model.worldToLocal(this.camera.position.clone());
+      this.glyphs.face(eye);
+      this.marker.face(eye);
       this.renderer.render(this.scene, this.camera);
     });
   }

@@ -58,7 +58,10 @@ export interface SnapshotOptions extends DrawOptions {
   height?: number;
   /** A bar that says which colour is which value, where there is room. Default true. */
   colorBar?: boolean;
-  /** Written above the picture. Default: nothing. */
+  /**
+   * Written above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others become
+   * boxes. Default: nothing.
+   */
   title?: string;
   camera?: Camera;
 }

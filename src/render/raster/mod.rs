@@ -1,8 +1,8 @@
 //! From a draw list to pixels.
 //!
-//! Surface and solids go through a depth buffer with sixteen samples for each pixel, strip by strip, so that memory does not grow
-//! with the picture. While a strip's depths are there, lines ask them which of their pieces are seen; those are drawn as smooth
-//! strokes at the end.
+//! Surface and solids go through a depth buffer with sixteen samples for each pixel, strip by strip, so that depths take no more
+//! memory in larger pictures. While a strip's depths are there, lines ask them which of their pieces are seen; those are drawn as
+//! smooth strokes at the end.
 
 mod brush;
 mod facets;

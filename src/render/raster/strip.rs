@@ -164,8 +164,8 @@ impl Strip {
         self.lamp = Some(lamp);
     }
 
-    #[inline(never)]
     /// The triangles in a pixel; each sample by itself where colours have steps.
+    #[inline(never)]
     fn gather(&self, row: usize, column: usize, groups: &mut Vec<Group>, one_by_one: bool) {
         for j in 0..SAMPLES {
             let line = row * SAMPLES + j;
@@ -190,8 +190,8 @@ impl Strip {
         }
     }
 
-    #[inline(never)]
     /// Whether a point on the surface is not hidden: from one of the four samples around it at least.
+    #[inline(never)]
     pub(super) fn sees(&self, facets: &Facets, probe: Probe) -> bool {
         let samples = SAMPLES as f64;
         let (x, y) =
