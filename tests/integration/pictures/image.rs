@@ -37,18 +37,6 @@ impl Image {
         self.pixels[y * self.width + x]
     }
 
-    /// Between the middles of pixels, one channel.
-    pub(crate) fn sample(&self, x: f64, y: f64, channel: usize) -> f64 {
-        let (x, y) = (x - 0.5, y - 0.5);
-        let (column, row) = (x.floor().max(0.0), y.floor().max(0.0));
-        let (u, v) = (x - column, y - row);
-        let value = |i: usize, j: usize| {
-            let (column, row) = ((column as usize + i).min(self.width - 1), (row as usize + j).min(self.height - 1));
-            f64::from(self.at(column, row)[channel])
-        };
-        (1.0 - v) * ((1.0 - u) * value(0, 0) + u * value(1, 0)) + v * ((1.0 - u) * value(0, 1) + u * value(1, 1))
-    }
-
     /// The pixels that a condition holds for.
     pub(crate) fn places(&self, is_meant: impl Fn(Rgb) -> bool) -> Vec<[usize; 2]> {
         let all = (0..self.pixels.len()).filter(|&k| is_meant(self.pixels[k]));

@@ -8,14 +8,36 @@ use super::planes::edges;
 use super::surfaces::cube;
 use crate::support;
 
+/// A sphere of circles of latitude, with poles of that many triangles.
+fn globe(rings: u32, sectors: u32) -> TriMesh {
+    let mut positions = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let mut triangles = Vec::new();
+    let at = |i: u32, j: u32| 2 + i * sectors + j % sectors;
+    for i in 0..rings {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(i + 1) / f64::from(rings + 1)).sin_cos();
+        for j in 0..sectors {
+            let (y, x) = (std::f64::consts::TAU * f64::from(j) / f64::from(sectors)).sin_cos();
+            positions.push([sin * x, sin * y, cos]);
+            if i == 0 {
+                triangles.extend([[0, at(0, j), at(0, j + 1)], [1, at(rings - 1, j + 1), at(rings - 1, j)]]);
+            } else {
+                let (a, b, c, d) = (at(i - 1, j), at(i, j), at(i, j + 1), at(i - 1, j + 1));
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    }
+    support::mesh(&positions, &triangles)
+}
+
 #[test]
 fn a_sphere_is_a_disc_with_the_light_of_a_sphere() {
-    let mesh = shapes::sphere(6).unwrap();
-    let values = vec![0.0; mesh.vertex_count()];
-    for direction in [[0.0, 0.0, 1.0], [1.0, -2.0, 0.5]] {
+    let (even, polar) = (shapes::sphere(6).unwrap(), globe(120, 360));
+    // The last one looks at a pole of valence 360.
+    for (mesh, direction) in [(&even, [0.0, 0.0, 1.0]), (&even, [1.0, -2.0, 0.5]), (&polar, [0.1, 0.2, 1.0])] {
+        let values = vec![0.0; mesh.vertex_count()];
         let options = from(direction, bare(220, 200));
-        let image = draw(&mesh, &values, &options);
-        let light = Scene::new(&mesh).draw_list(&values, &options.draw).unwrap().light;
+        let image = draw(mesh, &values, &options);
+        let light = Scene::new(mesh).draw_list(&values, &options.draw).unwrap().light;
         let [left, right, top, bottom] = edges(&image);
         assert!((right - left - (bottom - top)).abs() < 0.5);
         let (x, y, radius) = (0.5 * (left + right), 0.5 * (top + bottom), 0.25 * (right - left + bottom - top));
