@@ -3,18 +3,20 @@ import { writeFileSync } from 'node:fs';
 
 const { PI, cos, exp, sin } = Math;
 
-/** A grid of columns × rows corners over [0, 1]², placed by a function; with `closed`, the last column is the first one. */
-function grid(columns, rows, place, { closed = false } = {}) {
+/** A grid of columns × rows corners over [0, 1]², placed by a function; where it closes, the first of them come after the last. */
+function grid(columns, rows, place, closed = { columns: false, rows: false }) {
   const points = [];
   const triangles = [];
-  const at = (i, j) => (closed ? i % columns : i) * rows + j;
-  const cells = closed ? columns : columns - 1;
+  const at = (i, j) => (i % columns) * rows + (j % rows);
+  const across = closed.columns ? columns : columns - 1;
+  const along = closed.rows ? rows : rows - 1;
   for (let i = 0; i < columns; i++) {
-    for (let j = 0; j < rows; j++) points.push(place(i / cells, j / (rows - 1)));
+    for (let j = 0; j < rows; j++) points.push(place(i / across, j / along));
   }
-  for (let i = 0; i < cells; i++) {
-    for (let j = 0; j + 1 < rows; j++) {
-      triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+  for (let i = 0; i < across; i++) {
+    for (let j = 0; j < along; j++) {
+      const [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+      triangles.push([a, b, c], [a, c, d]);
     }
   }
   return { points, triangles };
@@ -48,19 +50,19 @@ const bowl = grid(
     const [azimuth, polar] = [2 * PI * u, PI * (1 - 0.68 * v)];
     return [sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth)];
   },
-  { closed: true },
+  { columns: true, rows: false },
 );
 write('bowl', bowl, { height: ([, y]) => y });
 
 const ring = grid(
   36,
-  19,
+  18,
   (u, v) => {
     const [around, across] = [2 * PI * u, 2 * PI * v];
     const r = 1 + 0.42 * cos(across);
     return [r * sin(around), 0.42 * sin(across), r * cos(around)];
   },
-  { closed: true },
+  { columns: true, rows: true },
 );
 write('ring', ring, { slope: ([x, y, z]) => x + 0.3 * y + 0.2 * z });
 

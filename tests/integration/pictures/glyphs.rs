@@ -81,6 +81,17 @@ fn they_look_about_equally_large() {
 }
 
 #[test]
+fn on_an_open_surface_they_stand_on_the_side_that_is_looked_at() {
+    for kind in KINDS {
+        for direction in [[0.0, 0.0, 1.0], [0.3, -0.2, 1.0]] {
+            let [front, back] =
+                [1.0, -1.0].map(|sign| silhouette(kind, direction.map(|x| sign * x), 450).0.len() as f64);
+            assert!((front / back - 1.0).abs() < 0.1, "{kind:?}: {front} and {back} pixels");
+        }
+    }
+}
+
+#[test]
 fn a_rim_keeps_them_apart_from_any_colour() {
     for kind in KINDS {
         let (points, image) = silhouette(kind, [0.0, 0.0, 1.0], 600);
