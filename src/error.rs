@@ -54,6 +54,55 @@ impl From<&'static str> for Detail {
     }
 }
 
+/// The work was stopped by whoever watches it ([`Watch`](crate::Watch)). Every stage's error has a variant for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cancelled;
+
+/// Memory that cannot be had. Every stage's error has a variant for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OutOfMemory {
+    /// Bytes needed.
+    pub bytes: u64,
+}
+
+/// The errors of stages that can be stopped, or run out of memory.
+macro_rules! interrupts {
+    ($($stage:ident),*) => {
+        $(
+            impl From<Cancelled> for $stage {
+                fn from(Cancelled: Cancelled) -> Self {
+                    Self::Cancelled {}
+                }
+            }
+
+            impl From<OutOfMemory> for $stage {
+                fn from(OutOfMemory { bytes }: OutOfMemory) -> Self {
+                    Self::OutOfMemory { bytes }
+                }
+            }
+        )*
+    };
+}
+interrupts!(MeshError, FieldError, SolveError, SmoothError);
+
+impl From<OutOfMemory> for ParseError {
+    fn from(OutOfMemory { bytes }: OutOfMemory) -> Self {
+        Self::OutOfMemory { bytes }
+    }
+}
+
+impl From<Cancelled> for Error {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Smooth(cancelled.into())
+    }
+}
+
+impl From<OutOfMemory> for Error {
+    fn from(shortage: OutOfMemory) -> Self {
+        Self::Smooth(shortage.into())
+    }
+}
+
 /// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names.
 macro_rules! stage_error {
     ($(#[$meta:meta])* $name:ident {
@@ -262,6 +311,13 @@ stage_error! {
             /// The vertex.
             vertex: u32,
         } => "the weights around vertex {vertex} sum to zero, so its row cannot be normalised",
+        /// The work was stopped by its watcher.
+        Cancelled {} => "stopped, as asked; everything is as it was before the call",
+        /// The memory that the work needs cannot be had.
+        OutOfMemory {
+            /// Bytes needed.
+            bytes: u64,
+        } => "{bytes} bytes of memory are needed, more than can be had here",
     }
 }
 
@@ -294,6 +350,11 @@ stage_error! {
             /// Number of vertices.
             vertices: usize,
         } => "there is no vertex {index}: there are {vertices} vertices, numbered from 0",
+        /// A vertex that was asked for has no value, or none of its triangles has three values.
+        MissingValue {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} was asked for, but values are missing there or all around it",
         /// A vertex that was to stay an extremum is none.
         NotAnExtremum {
             /// The vertex.
@@ -316,6 +377,8 @@ stage_error! {
             /// Bytes needed.
             bytes: u64,
         } => "{bytes} bytes of memory are needed, more than can be had here",
+        /// The work was stopped by its watcher.
+        Cancelled {} => "stopped, as asked; everything is as it was before the call",
     }
 }
 
@@ -365,6 +428,8 @@ stage_error! {
             /// Bytes needed.
             bytes: u64,
         } => "{bytes} bytes of memory are needed, more than can be had here",
+        /// The work was stopped by its watcher.
+        Cancelled {} => "stopped, as asked; everything is as it was before the call",
     }
 }
 
@@ -397,6 +462,13 @@ stage_error! {
             /// Steps taken.
             iterations: usize,
         } => "the values grow beyond bounds after {iterations} iterations; a smaller step or weights without negative ones help",
+        /// The work was stopped by its watcher.
+        Cancelled {} => "stopped, as asked; everything is as it was before the call",
+        /// The memory that the work needs cannot be had.
+        OutOfMemory {
+            /// Bytes needed.
+            bytes: u64,
+        } => "{bytes} bytes of memory are needed, more than can be had here",
     }
 }
 

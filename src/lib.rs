@@ -17,6 +17,7 @@ pub mod operators;
 pub mod render;
 pub mod smooth;
 pub mod solve;
+mod support;
 // Public for `tests/bindings/` alone; the API for users is in `src/js`.
 #[cfg(feature = "bindings")]
 #[doc(hidden)]
@@ -25,6 +26,7 @@ pub mod wasm;
 pub use error::{Diagnostic, Error, Result};
 pub use mesh::TriMesh;
 pub use smooth::{Smoother, SmootherOptions};
+pub use support::watch::{Phase, Progress, Watch};
 
 // The README's Rust runs as a test.
 #[cfg(doctest)]

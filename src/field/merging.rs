@@ -1,8 +1,8 @@
 //! Components of growing sublevel or superlevel sets, by union and find.
 
 use super::direction::Sweep;
-use super::forest::Forest;
 use super::saddles::Saddles;
+use crate::support::union_find::UnionFind;
 
 /// The components of what a sweep has met, each named by the extremum that it began with.
 ///
@@ -12,7 +12,7 @@ use super::saddles::Saddles;
 pub(super) struct Merging<'a> {
     sweep: Sweep<'a>,
     /// At first the steepest paths; later, extrema lead on to those that their components joined.
-    components: Forest,
+    components: UnionFind,
 }
 
 /// Two components became one.
@@ -27,7 +27,7 @@ pub(super) struct Merged {
 impl<'a> Merging<'a> {
     /// `steepest` has the neighbour that every vertex leads to, against the direction of the sweep.
     pub(super) fn new(sweep: Sweep<'a>, steepest: Vec<u32>) -> Self {
-        Self { sweep, components: Forest::new(steepest) }
+        Self { sweep, components: UnionFind::new(steepest) }
     }
 
     /// The extremum that the component of `v` began with.
@@ -42,7 +42,7 @@ impl<'a> Merging<'a> {
             return None;
         }
         let (survivor, ended) = if self.sweep.precedes(a, b) { (a, b) } else { (b, a) };
-        self.components.lead(ended, survivor);
+        self.components.link(ended, survivor);
         Some(Merged { ended, survivor })
     }
 

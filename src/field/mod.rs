@@ -4,7 +4,6 @@
 mod critical;
 mod direction;
 mod features;
-mod forest;
 mod hierarchy;
 mod level;
 mod link;
@@ -13,6 +12,7 @@ mod morse;
 mod order;
 mod persistence;
 mod saddles;
+mod scalar_field;
 mod simplify;
 mod sorting;
 mod steepest;
@@ -27,4 +27,5 @@ pub use level::{Bands, LevelSets, bands, evenly_spaced_levels, level_sets, saddl
 pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basins, morse_complex, morse_hierarchy};
 pub use order::{Threshold, ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
+pub use scalar_field::{Missing, ScalarField};
 pub use simplify::{Keep, simplify};

@@ -37,6 +37,11 @@ impl<'a> VertexOrder<'a> {
         }
     }
 
+    /// The order of values that were checked before.
+    pub(crate) fn of_checked(values: &'a [f64]) -> Self {
+        Self { values }
+    }
+
     /// The values.
     #[must_use]
     pub fn values(self) -> &'a [f64] {

@@ -4,6 +4,7 @@ mod connectivity;
 mod geometry;
 mod load;
 pub mod shapes;
+mod submesh;
 mod topology;
 mod validate;
 mod weld;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 pub use connectivity::{Connectivity, LinkKind};
 pub(crate) use geometry::{cross, difference, dot, norm};
 pub use load::{LoadedMesh, load};
+pub use submesh::Submesh;
 pub use topology::MeshTopology;
 pub use weld::{Welded, weld};
 

@@ -7,32 +7,7 @@ use core::f64::consts::TAU;
 
 use super::{TriMesh, cross, norm};
 use crate::error::MeshError;
-
-/// A small reproducible generator of uniform numbers (SplitMix64, \[Steele14\]).
-#[derive(Debug, Clone)]
-pub struct Random(u64);
-
-impl Random {
-    /// The same seed gives the same numbers everywhere.
-    #[must_use]
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// The next number in [0, 1).
-    pub fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// The next number in [−1, 1).
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.uniform() - 1.0
-    }
-}
+pub use crate::support::random::Random;
 
 /// The regular tetrahedron with corners at alternate corners of the cube [−1, 1]³; outward orientation.
 ///

@@ -1,6 +1,7 @@
 //! Counts of the surface's invariants.
 
 use super::connectivity::{Connectivity, LinkKind, corner_of};
+use crate::support::union_find::UnionFind;
 
 /// Invariants of a mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -60,9 +61,9 @@ pub(super) fn compute(connectivity: &Connectivity, degenerate_triangles: usize) 
 
 /// Number of components (joined through vertices), and whether the triangles can be oriented coherently.
 fn sweep(connectivity: &Connectivity) -> (usize, bool) {
-    let mut vertices = UnionFind::new(connectivity.vertex_count());
+    let mut vertices = UnionFind::singletons(connectivity.vertex_count());
     for &[a, b] in connectivity.edges() {
-        vertices.join(a, b);
+        vertices.unite(a, b);
     }
     let components = (0..connectivity.vertex_count() as u32)
         .filter(|&v| connectivity.link_kinds()[v as usize] != LinkKind::Isolated && vertices.find(v) == v)
@@ -107,7 +108,7 @@ fn orientable(connectivity: &Connectivity) -> bool {
 fn boundary_loops(connectivity: &Connectivity) -> usize {
     let is_boundary = |edge: u32| connectivity.triangles_of_edge(edge).len() == 1;
     let boundary: Vec<u32> = (0..connectivity.edges().len() as u32).filter(|&e| is_boundary(e)).collect();
-    let mut loops = UnionFind::new(boundary.len());
+    let mut loops = UnionFind::singletons(boundary.len());
     let place = |edge: u32| boundary.partition_point(|&e| e < edge) as u32;
     for (start, &edge) in boundary.iter().enumerate() {
         for &v in &connectivity.edges()[edge as usize] {
@@ -124,36 +125,9 @@ fn boundary_loops(connectivity: &Connectivity) -> usize {
                 }
             }
             if is_boundary(current) {
-                loops.join(start as u32, place(current));
+                loops.unite(start as u32, place(current));
             }
         }
     }
     (0..boundary.len() as u32).filter(|&e| loops.find(e) == e).count()
-}
-
-/// Disjoint sets with path halving; the smaller id is the root, so that results do not depend on the order of joins.
-struct UnionFind {
-    parent: Vec<u32>,
-}
-
-impl UnionFind {
-    fn new(n: usize) -> Self {
-        Self { parent: (0..n as u32).collect() }
-    }
-
-    fn find(&mut self, mut v: u32) -> u32 {
-        while self.parent[v as usize] != v {
-            let above = self.parent[self.parent[v as usize] as usize];
-            self.parent[v as usize] = above;
-            v = above;
-        }
-        v
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        if a != b {
-            self.parent[a.max(b) as usize] = a.min(b);
-        }
-    }
 }

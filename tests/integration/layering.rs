@@ -3,15 +3,16 @@
 use std::path::Path;
 
 /// What a module of the crate may import from it. The bindings may import anything.
-const MAY_IMPORT: [(&str, &[&str]); 8] = [
+const MAY_IMPORT: [(&str, &[&str]); 9] = [
+    ("support", &["error"]),
     ("error", &[]),
-    ("io", &["error"]),
-    ("mesh", &["error", "io"]),
-    ("operators", &["error", "mesh"]),
-    ("field", &["error", "mesh"]),
-    ("solve", &["error"]),
-    ("smooth", &["error", "mesh", "operators", "field", "solve"]),
-    ("render", &["error", "mesh", "field"]),
+    ("io", &["error", "support"]),
+    ("mesh", &["error", "support", "io"]),
+    ("operators", &["error", "support", "mesh"]),
+    ("field", &["error", "support", "mesh"]),
+    ("solve", &["error", "support"]),
+    ("smooth", &["error", "support", "mesh", "operators", "field", "solve"]),
+    ("render", &["error", "support", "mesh", "field"]),
 ];
 
 /// Words that the numerical core does without, so that results depend on no platform, clock, hash order or global state.
@@ -57,7 +58,7 @@ const SOLVER: [&[&str]; 11] = [
 
 /// The files and folders of `field` in groups, likewise.
 const FIELD: [&[&str]; 9] = [
-    &["order", "sorting", "forest", "link"],
+    &["order", "sorting", "scalar_field", "link"],
     &["direction", "critical", "steepest"],
     &["hierarchy", "saddles", "level"],
     &["merging"],
@@ -159,6 +160,7 @@ fn imports(code: &str) -> Vec<String> {
             "Error" | "Result" | "Diagnostic" => "error".to_owned(),
             "TriMesh" => "mesh".to_owned(),
             "Smoother" | "SmootherOptions" => "smooth".to_owned(),
+            "Phase" | "Progress" | "Watch" => "support".to_owned(),
             _ => name,
         })
         .collect()

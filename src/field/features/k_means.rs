@@ -5,7 +5,7 @@ use super::seeding::seeded;
 use crate::error::FieldError;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::mesh::Connectivity;
-use crate::mesh::shapes::Random;
+use crate::support::random::Random;
 
 /// So many bounds may be moved in all: Lloyd's iterations can be as many as the square of the clusters, and the last ones move
 /// hardly anything.

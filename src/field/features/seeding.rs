@@ -1,7 +1,7 @@
 //! The means that Lloyd's iterations begin with: k-means++ on a line.
 
 use super::line::Line;
-use crate::mesh::shapes::Random;
+use crate::support::random::Random;
 
 /// No cluster on that side.
 const NONE: u32 = u32::MAX;

@@ -1,7 +1,7 @@
 //! The vertices and edges of one link.
 
-use crate::field::forest::Forest;
 use crate::mesh::Connectivity;
+use crate::support::union_find::UnionFind;
 
 /// Where there is nothing to name.
 pub(super) const NONE: u32 = u32::MAX;
@@ -19,7 +19,7 @@ pub(super) struct LinkGraph {
     /// The places next to each one, where the link is a cycle or a path.
     pub(super) beside: Vec<[u32; 2]>,
     /// Sets of places, for who needs components.
-    pub(super) sets: Forest,
+    pub(super) sets: UnionFind,
 }
 
 impl LinkGraph {
@@ -30,7 +30,7 @@ impl LinkGraph {
             edges: Vec::new(),
             degrees: Vec::new(),
             beside: Vec::new(),
-            sets: Forest::default(),
+            sets: UnionFind::default(),
         }
     }
 

@@ -112,7 +112,7 @@ impl LinkScratch {
             // Roots are the lowest vertices of their classes.
             let is_elder = self.differences[a as usize] <= self.differences[b as usize];
             let (elder, younger) = if is_elder { (a, b) } else { (b, a) };
-            self.graph.sets.lead(younger, elder);
+            self.graph.sets.link(younger, elder);
             push_positive(ends, (-self.differences[younger as usize]).min(self.levels[edge]));
         }
         for v in 0..self.graph.nodes.len() {

@@ -6,12 +6,12 @@ use super::units::Units;
 use crate::error::Error;
 use crate::field::critical::CriticalKind;
 use crate::field::direction::Sweep;
-use crate::field::forest::Forest;
 use crate::field::merging::Merging;
 use crate::field::order::{Threshold, VertexOrder};
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::{Steepest, ends};
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::union_find::UnionFind;
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,7 +133,7 @@ impl Cancellations {
 
     /// In order of persistence, the arcs of a cancelled extremum go over to the one on the other side of its saddle.
     fn find_successors(&mut self) {
-        let mut joined = self.ends.each_ref().map(|ends| Forest::new(ends.clone()));
+        let mut joined = self.ends.each_ref().map(|ends| UnionFind::new(ends.clone()));
         for cancellation in &mut self.list {
             let joined = &mut joined[usize::from(cancellation.upwards)];
             let Cancellation { here, beyond, extremum, .. } = *cancellation;
@@ -143,7 +143,7 @@ impl Cancellations {
             } else {
                 (cancellation.here, cancellation.beyond, cancellation.into) = (beyond, here, a);
             }
-            joined.lead(extremum, cancellation.into);
+            joined.link(extremum, cancellation.into);
         }
     }
 

@@ -4,11 +4,11 @@ use std::collections::BinaryHeap;
 
 use core::cmp::Reverse;
 
-use crate::field::forest::Forest;
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::field::sorting::{sort_by_key, sort_by_value};
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use crate::support::union_find::UnionFind;
 
 /// The vertices of the essential classes of dimension one of the sublevel sets, by ascending (value, id). `mergers` has for
 /// every saddle how many components merge there in the sweeps up and down, and `steepest_up` the highest neighbours.
@@ -55,7 +55,7 @@ fn bound_from_beyond(
     for &v in connectivity.special_vertices() {
         up[v as usize] = beyond;
     }
-    let mut above = Forest::new(up);
+    let mut above = UnionFind::new(up);
     for &i in ascending.iter().rev() {
         let saddle = saddles.get(i);
         let on_boundary = connectivity.link_kinds()[saddle.vertex as usize] == LinkKind::Path;
@@ -139,7 +139,7 @@ impl<'a> Coboundaries<'a> {
     fn essential_saddles(mut self) -> Vec<u32> {
         let edges = self.edges();
         let mut joining = vec![false; edges.len()];
-        let mut components = Forest::new((0..self.vertices.len() as u32).collect());
+        let mut components = UnionFind::singletons(self.vertices.len());
         for (place, &edge) in edges.iter().enumerate() {
             let [a, b] = self.connectivity.edges()[edge as usize];
             joining[place] = components.unite(a, b);

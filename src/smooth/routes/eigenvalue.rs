@@ -2,8 +2,8 @@
 
 use super::Problem;
 use crate::error::SolveError;
-use crate::mesh::shapes::Random;
 use crate::solve::norm;
+use crate::support::random::Random;
 
 /// The fewest steps, in which the start is forgotten, and the most.
 const STEPS: core::ops::Range<usize> = 16..80;

@@ -1,0 +1,51 @@
+//! Memory that is made sure of before work begins, so that a shortage is an error and not the end of the program.
+//!
+//! In WebAssembly an allocation that fails ends the module. What allocates in many places therefore estimates its peak
+//! beforehand and calls [`ensure`]; what makes one large array reserves it by [`filled`] or [`with_room`].
+
+use crate::error::OutOfMemory;
+
+/// What memory is asked for in. Nothing else is aligned like this, by which `tests/memory/` knows what was made sure of.
+#[repr(align(64))]
+struct Block {
+    _bytes: [u8; 64],
+}
+
+/// Makes sure that `bytes` can be had on top of what is in use: memory grows by so much, or nothing changes.
+///
+/// The memory is taken in one piece and given back at once. The allocator of WebAssembly keeps it, as memory never shrinks, and
+/// cuts what is asked for next from it.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes that were asked for.
+#[inline(never)]
+pub(crate) fn ensure(bytes: u64) -> Result<(), OutOfMemory> {
+    let mut room: Vec<Block> = Vec::new();
+    let blocks = usize::try_from(bytes.div_ceil(size_of::<Block>() as u64));
+    let reserved = blocks.is_ok_and(|blocks| room.try_reserve_exact(blocks).is_ok());
+    // An allocation that nothing reads could be left out by the compiler.
+    core::hint::black_box(&room);
+    if reserved { Ok(()) } else { Err(OutOfMemory { bytes }) }
+}
+
+/// An empty vector with room for `count` elements.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes that the elements take.
+pub(crate) fn with_room<T>(count: usize) -> Result<Vec<T>, OutOfMemory> {
+    let mut vector = Vec::new();
+    match vector.try_reserve_exact(count) {
+        Ok(()) => Ok(vector),
+        Err(_) => Err(OutOfMemory { bytes: (count as u64).saturating_mul(size_of::<T>() as u64) }),
+    }
+}
+
+/// `count` copies of an element.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes that the elements take.
+pub(crate) fn filled<T: Clone>(element: T, count: usize) -> Result<Vec<T>, OutOfMemory> {
+    let mut vector = with_room(count)?;
+    vector.resize(count, element);
+    Ok(vector)
+}

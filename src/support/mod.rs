@@ -1,0 +1,8 @@
+//! Small tools that several rooms share: they know nothing of meshes, fields or matrices.
+
+pub(crate) mod counting_sort;
+pub(crate) mod memory;
+pub(crate) mod named;
+pub(crate) mod random;
+pub(crate) mod union_find;
+pub mod watch;
