@@ -1,6 +1,5 @@
 //! Fields with several values per vertex: taken apart, normalised, and put together again.
 
-use super::{Phase, Progress};
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::mesh::{LinkKind, TriMesh};
@@ -81,15 +80,9 @@ impl<'a> Channels<'a> {
         })
     }
 
-    /// Tells the progress with some channels as that with all of them.
-    pub(super) fn share_of_progress(
-        &self,
-        first: usize,
-        count: usize,
-        progress: Progress<'_>,
-    ) -> impl FnMut(Phase, f64) {
-        let all = self.count() as f64;
-        move |phase, fraction| progress(phase, (first as f64 + fraction * count as f64) / all)
+    /// How many groups there are.
+    pub(super) fn group_count(&self) -> usize {
+        self.count().div_ceil(TOGETHER)
     }
 
     /// The input, for results to be written over it.

@@ -1,7 +1,7 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
 use super::channels::{Channel, Channels};
-use super::system::Reach;
+use super::active::ActiveVertices;
 use crate::error::{Result, SmoothError};
 use crate::field::{Features, feature_points, with_stars};
 use crate::mesh::TriMesh;
@@ -67,92 +67,26 @@ impl ConstraintSet {
     }
 }
 
-/// The components that have no constrained vertex: their vertices are no unknowns.
-#[derive(Debug)]
-pub(super) struct LeftOut {
-    /// Per component.
-    is_left_out: Vec<bool>,
-    takes_mean: bool,
-}
-
-impl LeftOut {
-    /// # Errors
-    /// `Unconstrained` with the first such component, where that is an error.
-    pub(super) fn new(reach: &Reach, set: &ConstraintSet, unconstrained: Unconstrained) -> Result<Self, SmoothError> {
-        let mut is_left_out = vec![true; reach.first_vertices().len()];
-        for &v in &set.vertices {
-            if let Some(component) = reach.component(v) {
-                is_left_out[component] = false;
-            }
-        }
-        if unconstrained == Unconstrained::Error
-            && let Some(component) = is_left_out.iter().position(|&left_out| left_out)
-        {
-            return Err(SmoothError::Unconstrained { component, vertex: reach.first_vertices()[component] });
-        }
-        Ok(Self { is_left_out, takes_mean: unconstrained == Unconstrained::Mean })
-    }
-
-    /// Whether no component is left out.
-    pub(super) fn is_empty(&self) -> bool {
-        !self.is_left_out.contains(&true)
-    }
-
-    /// The vertices of components that are not left out.
-    pub(super) fn remaining(&self, reach: &Reach) -> Vec<u32> {
-        let remains = |v: u32| reach.component(v).is_some_and(|component| !self.is_left_out[component]);
-        reach.active().iter().copied().filter(|&v| remains(v)).collect()
-    }
-
-    /// Writes what becomes of the components left out into normalised values.
-    pub(super) fn write(&self, reach: &Reach, x: &mut [f64]) {
-        if !self.takes_mean || self.is_empty() {
-            return;
-        }
-        let mut sums = vec![(0.0, 0_u32); self.is_left_out.len()];
-        for &v in reach.active() {
-            if let Some(component) = reach.component(v) {
-                let (sum, count) = &mut sums[component];
-                *sum += x[v as usize];
-                *count += 1;
-            }
-        }
-        for &v in reach.active() {
-            if let Some(component) = reach.component(v)
-                && self.is_left_out[component]
-            {
-                let (sum, count) = sums[component];
-                x[v as usize] = sum / f64::from(count);
-            }
-        }
-    }
-
-    /// Whether a vertex gets another value than it had, though it is no unknown.
-    pub(super) fn moves(&self, reach: &Reach, vertex: u32) -> bool {
-        self.takes_mean && reach.component(vertex).is_some_and(|component| self.is_left_out[component])
-    }
-}
-
 /// Components in which all constrained values are the same have this value everywhere by every method. A solver comes to it but
 /// for rounding, which would have critical points; so these values are written as they are, into the normalised ones and the
 /// others.
 pub(super) fn level_constant_components(
-    reach: &Reach,
+    active: &ActiveVertices,
     set: &ConstraintSet,
     channel: &Channel,
     x: &mut [f64],
     smoothed: &mut [f64],
 ) {
-    let mut example = vec![None; reach.first_vertices().len()];
+    let mut example = vec![None; active.first_vertices().len()];
     let mut varies = vec![false; example.len()];
     for &v in &set.vertices {
-        if let Some(component) = reach.component(v) {
+        if let Some(component) = active.component(v) {
             let first = *example[component].get_or_insert(v);
             varies[component] |= channel.values[v as usize] != channel.values[first as usize];
         }
     }
-    for &v in reach.active() {
-        if let Some(component) = reach.component(v)
+    for &v in active.list() {
+        if let Some(component) = active.component(v)
             && let Some(first) = example[component]
             && !varies[component]
         {

@@ -1,6 +1,6 @@
 //! Names of choices: each choice has one name, which options, reports, messages and the command line all use.
 
-/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`.
+/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. With the feature `serde` the name is what it is written as.
 ///
 /// ```ignore
 /// named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }
@@ -23,6 +23,13 @@ macro_rules! named {
             #[must_use]
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|choice| choice.name() == name)
+            }
+        }
+
+        #[cfg(feature = "serde")]
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> core::result::Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.name())
             }
         }
     };
