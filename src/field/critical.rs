@@ -2,8 +2,10 @@
 
 use super::link::LinkScratch;
 use super::order::VertexOrder;
-use crate::error::{Error, OptionError};
-use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use super::scalar_field::ScalarField;
+use crate::error::{OptionError, Result};
+use crate::mesh::{Connectivity, LinkKind};
+use crate::support::watch::Watch;
 
 /// What kind of critical point a vertex is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -112,30 +114,30 @@ pub struct DeltaOptions {
 /// gives no critical point.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where δ is negative or not finite.
+/// `InvalidOption` where δ is negative or not finite; `Cancelled`.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let counts = field::critical_points(&torus, &height, &field::DeltaOptions::default())?.counts;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let counts = field::critical_points(&height, &field::DeltaOptions::default(), &Watch::none())?.counts;
 /// assert_eq!((counts.minima, counts.maxima, counts.saddles, counts.index_sum), (1, 1, 2, Some(0)));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -> Result<CriticalPoints, Error> {
-    let connectivity = mesh.connectivity();
-    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+pub fn critical_points(field: &ScalarField<'_>, options: &DeltaOptions, watch: &Watch<'_>) -> Result<CriticalPoints> {
+    let (connectivity, values, order) = (field.mesh().connectivity(), field.values(), field.order());
     if !(options.delta.is_finite() && options.delta >= 0.0) {
-        let expected = "a finite number that is not negative".to_owned();
-        return Err(OptionError::InvalidOption { option: "delta".to_owned(), expected }.into());
+        return Err(OptionError::invalid("delta", "a finite number that is not negative").into());
     }
+    watch.tick(30 * values.len() as u64)?;
     if options.delta == 0.0 {
         return Ok(exact(connectivity, order));
     }
     let delta = match options.scale {
         DeltaScale::Absolute => options.delta,
-        DeltaScale::Relative => options.delta * largest_edge_difference(connectivity, values),
+        DeltaScale::Relative => options.delta * largest_edge_difference(field),
     };
     let sign = |i: u32, j: u32| {
         let difference = values[j as usize] - values[i as usize];
@@ -198,13 +200,11 @@ pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> M
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
-///
-/// # Panics
-/// Where `values` has not one value per vertex.
 #[must_use]
-pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f64 {
-    connectivity
-        .edges()
+pub fn largest_edge_difference(field: &ScalarField<'_>) -> f64 {
+    let values = field.values();
+    let edges = field.mesh().connectivity().edges();
+    edges
         .iter()
         .map(|&[a, b]| (values[a as usize] - values[b as usize]).abs())
         .fold(0.0, |largest, x| if x > largest { x } else { largest })

@@ -2,9 +2,10 @@
 
 use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, Measured, measured};
 use super::link::{FEW, LinkScratch};
-use super::order::VertexOrder;
-use crate::error::Error;
-use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use super::scalar_field::ScalarField;
+use crate::error::Result;
+use crate::mesh::{Connectivity, LinkKind};
+use crate::support::watch::Watch;
 
 /// A critical vertex and the δ at which it stops being one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,21 +79,22 @@ impl DeltaHierarchy {
 /// the absolute ones, where D is [`largest_edge_difference`]. One pass over the triangles, and a sort.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+/// `Cancelled`.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let hierarchy = field::delta_hierarchy(&torus, &height, field::LinkReading::Consecutive)?;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let hierarchy = field::delta_hierarchy(&height, field::LinkReading::Consecutive, &Watch::none())?;
 /// assert_eq!(hierarchy.counts_at(0.0).saddles, 2);
 /// assert_eq!(hierarchy.points_at(0.9).count(), 0);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Result<DeltaHierarchy, Error> {
-    let connectivity = mesh.connectivity();
-    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+pub fn delta_hierarchy(field: &ScalarField<'_>, link: LinkReading, watch: &Watch<'_>) -> Result<DeltaHierarchy> {
+    let (connectivity, values, order) = (field.mesh().connectivity(), field.values(), field.order());
+    watch.tick(60 * values.len() as u64)?;
     let Measured { found, nearest, largest } = measured(connectivity, order);
     let kinds = connectivity.link_kinds();
     let mut thresholds = Thresholds { connectivity, values, link, scratch: None, units: Vec::new(), upper: Vec::new() };

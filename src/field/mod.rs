@@ -28,4 +28,4 @@ pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basi
 pub use order::{Threshold, ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
 pub use scalar_field::{Missing, ScalarField};
-pub use simplify::{Keep, simplify};
+pub use simplify::{Keep, Simplified, simplify};

@@ -3,15 +3,17 @@
 use super::NONE;
 use super::flow::{Crossing, Flow};
 use super::units::Units;
-use crate::error::Error;
+use crate::error::Result;
 use crate::field::critical::CriticalKind;
 use crate::field::direction::Sweep;
 use crate::field::merging::Merging;
 use crate::field::order::{Threshold, VertexOrder};
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::{Steepest, ends};
 use crate::mesh::{LinkKind, TriMesh};
 use crate::support::union_find::UnionFind;
+use crate::support::watch::Watch;
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -207,9 +209,10 @@ impl Cancellations {
 /// [`MorseHierarchy::successors`], [`MorseHierarchy::arcs_at`].
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
+/// `Cancelled`.
+pub fn morse_hierarchy(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<MorseHierarchy> {
+    let (mesh, values, order) = (field.mesh(), field.values(), field.order());
+    watch.tick(200 * values.len() as u64)?;
     let all = Cancellations::new(mesh, order, f64::INFINITY);
     let mut nodes = Vec::new();
     let mut node_of = [(); 2].map(|()| vec![NONE; values.len()]);
@@ -256,10 +259,11 @@ pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy,
 /// The regions that flow to each extremum, once pairs of persistence up to a threshold are cancelled; none are at 0.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where the threshold is negative or not finite.
-pub fn basins(mesh: &TriMesh, values: &[f64], persistence: Threshold) -> Result<Basins, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = persistence.absolute(mesh, values, "persistence")?;
+/// `InvalidOption` where the threshold is negative or not finite; `Cancelled`.
+pub fn basins(field: &ScalarField<'_>, persistence: Threshold, watch: &Watch<'_>) -> Result<Basins> {
+    let (mesh, order) = (field.mesh(), field.order());
+    let threshold = persistence.absolute(field.range(), "persistence")?;
+    watch.tick(100 * mesh.vertex_count() as u64)?;
     let kinds = mesh.connectivity().link_kinds();
     let [descending, ascending] = if threshold > 0.0 {
         let all = Cancellations::new(mesh, order, threshold);

@@ -3,10 +3,11 @@
 use super::NONE;
 use super::flow::Flow;
 use super::hierarchy::Cancellations;
-use crate::error::{Error, FieldError};
+use crate::error::{FieldError, Result};
 use crate::field::critical::CriticalKind;
-use crate::field::order::{Threshold, VertexOrder};
-use crate::mesh::TriMesh;
+use crate::field::order::Threshold;
+use crate::field::scalar_field::ScalarField;
+use crate::support::watch::Watch;
 
 /// How far the lines of a Morse complex are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -48,27 +49,29 @@ pub struct MorseComplex {
 /// nothing is cancelled. Paths of the same direction that meet go on together.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `persistence` is negative or not finite;
+/// `InvalidOption` where `persistence` is negative or not finite;
 /// `OutOfMemory` where whole lines have more points than fit.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let complex = field::morse_complex(&torus, &height, field::Threshold::default(), field::PathStyle::Whole)?;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let nothing = field::Threshold::default();
+/// let complex = field::morse_complex(&height, nothing, field::PathStyle::Whole, &Watch::none())?;
 /// assert_eq!(complex.saddles.len(), 8);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn morse_complex(
-    mesh: &TriMesh,
-    values: &[f64],
+    field: &ScalarField<'_>,
     persistence: Threshold,
     style: PathStyle,
-) -> Result<MorseComplex, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = persistence.absolute(mesh, values, "persistence")?;
-    let cancelled = Cancellations::new(mesh, order, threshold);
+    watch: &Watch<'_>,
+) -> Result<MorseComplex> {
+    let threshold = persistence.absolute(field.range(), "persistence")?;
+    watch.tick(200 * field.values().len() as u64)?;
+    let cancelled = Cancellations::new(field.mesh(), field.order(), threshold);
     let alive = cancelled.alive(threshold);
     let flows = cancelled.flows(threshold);
     let mut complex = MorseComplex::default();
