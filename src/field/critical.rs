@@ -143,12 +143,12 @@ pub fn critical_points(field: &ScalarField<'_>, options: &DeltaOptions, watch: &
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
     };
-    Ok(classify(connectivity, options, false, &sweep(connectivity, sign), sign))
+    Ok(classify(connectivity, options, false, &sign_changes(connectivity, sign), sign))
 }
 
 /// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
 pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
-    exact_from(connectivity, order, &exact_states(connectivity, order))
+    exact_from(connectivity, order, &exact_changes(connectivity, order))
 }
 
 #[inline(never)]
@@ -167,7 +167,7 @@ pub(super) struct Measured {
     pub(super) largest: f64,
 }
 
-/// As [`sweep`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
+/// As [`sign_changes`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
 #[inline(never)]
 pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> Measured {
     let values = order.values();
@@ -210,13 +210,13 @@ pub fn largest_edge_difference(field: &ScalarField<'_>) -> f64 {
         .fold(0.0, |largest, x| if x > largest { x } else { largest })
 }
 
-/// The states of all vertices at δ = 0, see [`sweep`].
+/// The states of all vertices at δ = 0, see [`sign_changes`].
 #[inline(never)]
-pub(super) fn exact_states(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
-    sweep(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
+pub(super) fn exact_changes(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
+    sign_changes(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
 }
 
-/// Bits of the state that [`sweep`] leaves at a vertex: which signs its link vertices have, and above them the number of
+/// Bits of the state that [`sign_changes`] leaves at a vertex: which signs its link vertices have, and above them the number of
 /// link edges with opposite signs.
 const SAW_BELOW: u32 = 1;
 const SAW_NEUTRAL: u32 = 2;
@@ -227,7 +227,7 @@ pub(super) const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
 /// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
-pub(super) fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
+pub(super) fn sign_changes(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
     let mut states = vec![0_u32; connectivity.vertex_count()];
     for &[a, b, c] in connectivity.triangles() {
         let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));

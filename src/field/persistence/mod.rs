@@ -6,12 +6,12 @@ use loops::essential_saddles;
 
 use crate::error::Result;
 use crate::field::critical::CriticalKind;
-use crate::field::direction::Sweep;
 use crate::field::merging::Merging;
 use crate::field::saddles::Saddles;
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::Steepest;
+use crate::field::sweep::Sweep;
 use crate::mesh::LinkKind;
 use crate::support::watch::Watch;
 

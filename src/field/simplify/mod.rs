@@ -10,11 +10,11 @@ use tilt::tilted;
 
 use crate::error::{Error, FieldError, Result};
 use crate::field::critical::{CriticalKind, exact};
-use crate::field::direction::Sweep;
 use crate::field::order::{Threshold, VertexOrder};
 use crate::field::saddles::Saddles;
 use crate::field::scalar_field::ScalarField;
 use crate::field::steepest::Steepest;
+use crate::field::sweep::Sweep;
 use crate::mesh::TriMesh;
 use crate::support::watch::Watch;
 
