@@ -1,10 +1,15 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
-use super::channels::{Channel, Channels};
 use super::active::ActiveVertices;
-use crate::error::{Result, SmoothError};
+use super::channels::{Channel, Channels};
+use super::missing::Gaps;
+use super::run::Input;
+use super::schedule::Stages;
+use crate::error::{FieldError, MeshError, Result};
 use crate::field::{Features, feature_points, with_stars};
 use crate::mesh::TriMesh;
+use crate::support::named::named;
+use crate::support::watch::{Phase, Watch};
 
 /// What becomes of a component of the mesh without a constrained vertex, where the equations say nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,34 +17,37 @@ pub enum Unconstrained {
     /// An error with the component. The default.
     #[default]
     Error,
-    /// Its values stay.
+    /// Its values stay, also missing ones.
     Keep,
-    /// All its vertices get the mean of its values.
+    /// All its vertices get the mean of its values; where all of them are missing, the mean of all values that there are.
     Mean,
 }
+
+named! { Unconstrained { Error = "error", Keep = "keep", Mean = "mean" } }
 
 /// Which vertices are constrained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constraints<'a> {
-    /// The feature points. With several channels, those of all of them together.
+    /// The feature points. With several channels, those of all of them together. Default none.
     pub features: Features<'a>,
     /// Whether their 1-stars are constrained, too: what interpolation needs to keep critical points with their types.
+    /// Default false.
     pub stars: bool,
     /// Components without a constrained vertex. Default an error.
     pub unconstrained: Unconstrained,
 }
 
-/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
-///
-/// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`.
-pub fn constrained_vertices(
-    mesh: &TriMesh,
-    values: &[f64],
-    channels: usize,
-    constraints: &Constraints<'_>,
-) -> Result<Vec<u32>> {
-    Ok(ConstraintSet::new(mesh, &Channels::new(mesh, values, channels)?, constraints)?.vertices)
+impl Default for Constraints<'_> {
+    fn default() -> Self {
+        Self { features: Features::Vertices(&[]), stars: false, unconstrained: Unconstrained::default() }
+    }
+}
+
+impl Constraints<'_> {
+    /// Whether the vertices are to be found by a rule.
+    pub(super) fn is_rule(&self) -> bool {
+        !matches!(self.features, Features::Vertices(_))
+    }
 }
 
 /// The vertices that the rules came to.
@@ -52,17 +60,65 @@ pub(super) struct ConstraintSet {
 }
 
 impl ConstraintSet {
-    pub(super) fn new(mesh: &TriMesh, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
+    /// Rules look at the part of the mesh that has values, and vertices without values are not constrained.
+    pub(super) fn new(
+        input: &Input<'_>,
+        constraints: &Constraints<'_>,
+        stages: &mut Stages<'_, '_>,
+    ) -> Result<Self> {
+        if constraints.is_rule() {
+            stages.begin(Phase::Field, 0)?;
+        }
+        Self::found(&input.operators.mesh, &input.channels, input.gaps.as_ref(), constraints, stages.watch)
+    }
+
+    fn found(
+        mesh: &TriMesh,
+        channels: &Channels<'_>,
+        gaps: Option<&Gaps<'_>>,
+        constraints: &Constraints<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         let mut features = Vec::new();
-        for c in 0..channels.count() {
-            features.extend(feature_points(mesh, &channels.values(c), &constraints.features)?);
-            if matches!(constraints.features, Features::Vertices(_)) {
-                break;
+        match (&constraints.features, gaps) {
+            (Features::Vertices(vertices), Some(gaps)) => {
+                let count = mesh.vertex_count();
+                for &vertex in *vertices {
+                    if vertex as usize >= count {
+                        return Err(FieldError::IndexOutOfBounds { index: vertex, vertices: count }.into());
+                    }
+                    if !gaps.has_value(vertex) {
+                        return Err(FieldError::MissingValue { vertex }.into());
+                    }
+                }
+                features.extend_from_slice(vertices);
+            }
+            (Features::Vertices(_), None) => {
+                features = feature_points(mesh, &channels.values(0), &constraints.features)?;
+            }
+            (rule, None) => {
+                for c in 0..channels.count() {
+                    features.extend(feature_points(mesh, &channels.values(c), rule)?);
+                }
+            }
+            (rule, Some(gaps)) => {
+                let Some(known) = gaps.known else {
+                    return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into());
+                };
+                for c in 0..channels.count() {
+                    let values = known.gather(&channels.values(c), 1);
+                    let found = feature_points(&known.operators.mesh, &values, rule)?;
+                    features.extend(found.into_iter().map(|v| known.vertices[v as usize]));
+                }
             }
         }
         features.sort_unstable();
         features.dedup();
-        let vertices = if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
+        let mut vertices =
+            if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
+        if let Some(gaps) = gaps {
+            vertices.retain(|&v| gaps.has_value(v));
+        }
         Ok(Self { features, vertices })
     }
 }

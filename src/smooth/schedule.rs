@@ -1,5 +1,6 @@
 //! How a call's time is divided among its steps: the one table of shares for all methods and routes.
 
+use super::{SmootherOptions, SolverChoice};
 use crate::error::Cancelled;
 use crate::support::watch::{Phase, Plan, Watch};
 
@@ -27,6 +28,17 @@ impl Work {
             Self::PreconditionedByFactor => [25.0, 31.0, 80.0, 4.0],
             Self::Iterations => [0.0, 0.0, 200.0, 4.0],
             Self::Filter => [0.0, 0.0, 95.0, 5.0],
+        }
+    }
+}
+
+impl Work {
+    /// What the work with a constrained system is likely to be: `is_squared` where its matrix is the square of another one.
+    pub(super) fn expected(options: SmootherOptions, is_symmetric: bool, is_squared: bool) -> Self {
+        match options.solver {
+            SolverChoice::ConjugateGradient => Self::Iterations,
+            _ if is_squared || !is_symmetric => Self::FactorOfSquare,
+            _ => Self::FactorOfLaplacian,
         }
     }
 }
@@ -65,6 +77,11 @@ impl Schedule {
             steps.push((Phase::Report, report));
         }
         Self(steps)
+    }
+
+    /// The steps of a filter for so many groups of channels.
+    pub(super) fn of_filter(groups: usize) -> Self {
+        Self::new(&Forecast { rule: false, work: Work::Filter, analysis: false, factorization: false, groups })
     }
 
     /// Goes through the steps.

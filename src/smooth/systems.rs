@@ -44,6 +44,11 @@ impl Systems {
         }
     }
 
+    /// Whether some regularised system has been solved before, so that a pattern is analysed.
+    pub(super) fn is_analysed(&self) -> bool {
+        self.all.is_some() || self.partial.is_some()
+    }
+
     /// The reduced system with these free vertices. Other systems lose their factors.
     pub(super) fn reduced(
         &mut self,
