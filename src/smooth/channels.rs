@@ -57,12 +57,7 @@ pub(super) struct Channels<'a> {
 impl<'a> Channels<'a> {
     /// # Errors
     /// `InvalidOption` for no channels at all; `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-    pub(super) fn new(
-        mesh: &TriMesh,
-        values: &'a [f64],
-        channels: usize,
-        gaps: Option<&Gaps<'_>>,
-    ) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize, gaps: Option<&Gaps<'_>>) -> Result<Self> {
         let n = mesh.vertex_count();
         if channels == 0 {
             return Err(OptionError::invalid("channels", "a positive integer").into());

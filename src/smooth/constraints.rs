@@ -6,7 +6,7 @@ use super::missing::Gaps;
 use super::run::Input;
 use super::schedule::Stages;
 use crate::error::{FieldError, MeshError, Result};
-use crate::field::{Features, feature_points, with_stars};
+use crate::field::{Features, ScalarField, feature_points, with_stars};
 use crate::mesh::TriMesh;
 use crate::support::named::named;
 use crate::support::watch::{Phase, Watch};
@@ -43,6 +43,22 @@ impl Default for Constraints<'_> {
     }
 }
 
+/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them. Vertices
+/// at which the value of some channel is missing are none of them, and rules look at the triangles that have three values.
+///
+/// # Errors
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`; where values are missing `MissingValue` and
+/// `EmptyMesh`, too; `Cancelled`.
+pub fn constrained_vertices(
+    mesh: &TriMesh,
+    values: &[f64],
+    channels: usize,
+    constraints: &Constraints<'_>,
+) -> Result<Vec<u32>> {
+    Ok(ConstraintSet::found(mesh, &Channels::new(mesh, values, channels, None)?, None, constraints, &Watch::none())?
+        .vertices)
+}
+
 impl Constraints<'_> {
     /// Whether the vertices are to be found by a rule.
     pub(super) fn is_rule(&self) -> bool {
@@ -61,11 +77,7 @@ pub(super) struct ConstraintSet {
 
 impl ConstraintSet {
     /// Rules look at the part of the mesh that has values, and vertices without values are not constrained.
-    pub(super) fn new(
-        input: &Input<'_>,
-        constraints: &Constraints<'_>,
-        stages: &mut Stages<'_, '_>,
-    ) -> Result<Self> {
+    pub(super) fn new(input: &Input<'_>, constraints: &Constraints<'_>, stages: &mut Stages<'_, '_>) -> Result<Self> {
         if constraints.is_rule() {
             stages.begin(Phase::Field, 0)?;
         }
@@ -81,24 +93,22 @@ impl ConstraintSet {
     ) -> Result<Self> {
         let mut features = Vec::new();
         match (&constraints.features, gaps) {
-            (Features::Vertices(vertices), Some(gaps)) => {
+            (Features::Vertices(vertices), _) => {
                 let count = mesh.vertex_count();
                 for &vertex in *vertices {
                     if vertex as usize >= count {
                         return Err(FieldError::IndexOutOfBounds { index: vertex, vertices: count }.into());
                     }
-                    if !gaps.has_value(vertex) {
+                    if gaps.is_some_and(|gaps| !gaps.has_value(vertex)) {
                         return Err(FieldError::MissingValue { vertex }.into());
                     }
                 }
                 features.extend_from_slice(vertices);
             }
-            (Features::Vertices(_), None) => {
-                features = feature_points(mesh, &channels.values(0), &constraints.features)?;
-            }
             (rule, None) => {
                 for c in 0..channels.count() {
-                    features.extend(feature_points(mesh, &channels.values(c), rule)?);
+                    let values = channels.values(c);
+                    features.extend(feature_points(&[ScalarField::new(mesh, &values)?], rule, watch)?);
                 }
             }
             (rule, Some(gaps)) => {
@@ -107,7 +117,8 @@ impl ConstraintSet {
                 };
                 for c in 0..channels.count() {
                     let values = known.gather(&channels.values(c), 1);
-                    let found = feature_points(&known.operators.mesh, &values, rule)?;
+                    let field = ScalarField::new(&known.operators.mesh, &values)?;
+                    let found = feature_points(&[field], rule, watch)?;
                     features.extend(found.into_iter().map(|v| known.vertices[v as usize]));
                 }
             }

@@ -101,9 +101,7 @@ impl Part {
 pub(super) fn to_whole(vertices: &[u32], error: Error) -> Error {
     let whole = |vertex: u32| vertices.get(vertex as usize).copied().unwrap_or(vertex);
     match error {
-        Error::Mesh(MeshError::ZeroWeightSum { vertex }) => {
-            MeshError::ZeroWeightSum { vertex: whole(vertex) }.into()
-        }
+        Error::Mesh(MeshError::ZeroWeightSum { vertex }) => MeshError::ZeroWeightSum { vertex: whole(vertex) }.into(),
         Error::Smooth(SmoothError::Unconstrained { component, vertex }) => {
             SmoothError::Unconstrained { component, vertex: whole(vertex) }.into()
         }

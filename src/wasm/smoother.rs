@@ -10,7 +10,11 @@ use super::options::{
     BILATERAL, ConstraintInput, INTERPOLATE, LEAST_SQUARES, LOW_PASS, Method, SMOOTHER, TIKHONOV, from_rule, read,
     read_smooth,
 };
-use crate::smooth::{Phase, Smoothed, Smoother};
+use core::ops::ControlFlow;
+
+use crate::error::Result;
+use crate::smooth::{self, Smoothed, Smoother};
+use crate::support::watch::{Progress, Watch};
 
 /// A smoother in wasm memory.
 #[wasm_bindgen]
@@ -31,17 +35,14 @@ impl RawSmoother {
 
     pub fn tikhonov(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let options = read(options, &[TIKHONOV])?.tikhonov(self.smoother.options().operator)?;
-        let mut tell = teller(self.on_progress.as_ref());
-        Ok(result(&self.smoother.tikhonov_with_progress(&floats(values)?, &options, &mut tell)?))
+        Ok(result(&self.apply(values, &smooth::Method::Tikhonov(options))?))
     }
 
     pub fn interpolate(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let input = read(options, &[INTERPOLATE])?;
         let constraints = ConstraintInput::read(&input.constraints)?;
         let options = input.interpolate(&constraints)?;
-        let mut tell = teller(self.on_progress.as_ref());
-        let smoothed = self.smoother.interpolate_with_progress(&floats(values)?, &options, &mut tell);
-        Ok(result(&smoothed.map_err(from_rule)?))
+        Ok(result(&self.apply(values, &smooth::Method::Interpolate(options)).map_err(from_rule)?))
     }
 
     #[wasm_bindgen(js_name = leastSquares)]
@@ -56,22 +57,25 @@ impl RawSmoother {
         let constraints = ConstraintInput::read(&input.constraints)?;
         let weights = weights.as_ref().map(floats).transpose()?;
         let options = input.least_squares(&constraints, weights.as_deref())?;
-        let mut tell = teller(self.on_progress.as_ref());
-        let smoothed = self.smoother.least_squares_with_progress(&floats(values)?, &options, &mut tell);
-        Ok(result(&smoothed.map_err(from_rule)?))
+        Ok(result(&self.apply(values, &smooth::Method::LeastSquares(options)).map_err(from_rule)?))
     }
 
     #[wasm_bindgen(js_name = lowPass)]
     pub fn low_pass(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let options = read(options, &[LOW_PASS])?.low_pass()?;
-        let mut tell = teller(self.on_progress.as_ref());
-        Ok(result(&self.smoother.low_pass_with_progress(&floats(values)?, &options, &mut tell)?))
+        Ok(result(&self.apply(values, &smooth::Method::LowPass(options))?))
     }
 
     pub fn bilateral(&mut self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let options = read(options, &[BILATERAL])?.bilateral()?;
+        Ok(result(&self.apply(values, &smooth::Method::Bilateral(options))?))
+    }
+}
+
+impl RawSmoother {
+    fn apply(&mut self, values: &Float64Array, method: &smooth::Method<'_>) -> Result<Smoothed> {
         let mut tell = teller(self.on_progress.as_ref());
-        Ok(result(&self.smoother.bilateral_with_progress(&floats(values)?, &options, &mut tell)?))
+        self.smoother.apply(&floats(values)?, method, &Watch::new(&mut tell))
     }
 }
 
@@ -82,32 +86,31 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
     let options = input.smoother()?;
     let on_progress = input.progress()?;
     let mut tell = teller(on_progress.as_ref());
+    let watch = Watch::new(&mut tell);
     let values = floats(values)?;
     if method == Method::Tikhonov {
-        let tikhonov = input.tikhonov(options.operator)?;
-        let mut smoother = Smoother::new(mesh.mesh(), options)?;
-        return Ok(result(&smoother.tikhonov_with_progress(&values, &tikhonov, &mut tell)?));
+        let tikhonov = smooth::Method::Tikhonov(input.tikhonov(options.operator)?);
+        return Ok(result(&Smoother::new(mesh.mesh(), options)?.apply(&values, &tikhonov, &watch)?));
     }
     let constraints = ConstraintInput::read(&input.constraints)?;
-    let smoothed = if method == Method::Interpolate {
-        let interpolate = input.interpolate(&constraints)?;
-        Smoother::new(mesh.mesh(), options)?.interpolate_with_progress(&values, &interpolate, &mut tell)
+    let method = if method == Method::Interpolate {
+        smooth::Method::Interpolate(input.interpolate(&constraints)?)
     } else {
-        let least_squares = input.least_squares(&constraints, None)?;
-        Smoother::new(mesh.mesh(), options)?.least_squares_with_progress(&values, &least_squares, &mut tell)
+        smooth::Method::LeastSquares(input.least_squares(&constraints, None)?)
     };
-    Ok(result(&smoothed.map_err(from_rule)?))
+    Ok(result(&Smoother::new(mesh.mesh(), options)?.apply(&values, &method, &watch).map_err(from_rule)?))
 }
 
 /// Calls `{ phase, fraction }` back. What a callback throws is not ours: `src/js` hands callbacks that keep it.
-fn teller(on_progress: Option<&Function>) -> impl FnMut(Phase, f64) {
-    move |phase, fraction| {
+fn teller(on_progress: Option<&Function>) -> impl FnMut(Progress) -> ControlFlow<()> {
+    move |Progress { phase, fraction }| {
         if let Some(callback) = on_progress {
             let progress = Object::new();
             set(&progress, "phase", &JsValue::from_str(phase.name()));
             set(&progress, "fraction", &JsValue::from_f64(fraction));
             let _ = callback.call1(&JsValue::NULL, &progress);
         }
+        ControlFlow::Continue(())
     }
 }
 

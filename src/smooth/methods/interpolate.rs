@@ -61,8 +61,7 @@ pub(in crate::smooth) fn start(
     });
     let mut stages = schedule.stages(watch);
     let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
-    let components =
-        UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
+    let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
     let mut free = components.remaining(&operators.active);
     free.retain(|v| set.vertices.binary_search(v).is_err());
     let system = systems.reduced(operators, options.energy, &free)?;

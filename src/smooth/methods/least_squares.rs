@@ -60,8 +60,7 @@ pub(in crate::smooth) fn start(
     });
     let mut stages = schedule.stages(watch);
     let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
-    let components =
-        UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
+    let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
     let norm = Norm::Weights { vertices: set.vertices.clone(), weights: weights(&set, options)? };
     let unknowns = components.remaining(&operators.active);
     // The weights are zero where values are missing, as no such vertex is constrained.

@@ -55,9 +55,7 @@ pub(in crate::smooth) fn start(input: &Input<'_>, options: &LowPassOptions, watc
     let stages = schedule.stages(watch);
     let diagonal = diagonal(&operators.laplacian);
     let perturbation_factor = match operators.options.bounds {
-        true => {
-            bounds::low_pass(&operators.laplacian, &diagonal, operators.is_symmetric(), [lambda, mu], iterations)
-        }
+        true => bounds::low_pass(&operators.laplacian, &diagonal, operators.is_symmetric(), [lambda, mu], iterations),
         false => None,
     };
     let averages = Averages::new(&operators.laplacian, &diagonal);

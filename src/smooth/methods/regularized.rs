@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::settings;
 use crate::error::Result;
+use crate::smooth::SmootherOptions;
 use crate::smooth::bounds;
 use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
@@ -12,7 +13,6 @@ use crate::smooth::report::SolverReport;
 use crate::smooth::run::{Found, Measures, Procedure, Solution};
 use crate::smooth::schedule::Stages;
 use crate::smooth::system::{RegularizedSystem, Solved};
-use crate::smooth::SmootherOptions;
 
 /// One of these systems with its ε.
 pub(super) struct Regularized<'a> {

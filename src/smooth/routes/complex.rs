@@ -11,7 +11,6 @@ use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
 use super::{Answer, Task};
-use crate::Watch;
 use crate::error::SolveError;
 use crate::smooth::Precision;
 use crate::smooth::names::Route;
@@ -25,19 +24,10 @@ pub(super) type ComplexFactors = Factors<Complex<f64>, Complex<f32>>;
 
 type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 
-<<<<<<< HEAD
 /// Analyses the pattern of L.
 pub(super) fn analyse(task: &Task<'_>, watch: &Watch<'_>) -> Result<ComplexFactors, SolveError> {
     Ok(Factors::new(CholeskyAnalysis::new(task.problem.matrix.pattern().clone(), watch)?))
 }
-=======
-impl ComplexRoute {
-    pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
-        let pattern = task.problem.matrix.pattern().clone();
-        let analysis = CholeskyAnalysis::new(pattern, &Watch::none())?;
-        Ok(Self { factors: Factors::new(analysis) })
-    }
->>>>>>> core
 
 /// Solves with the factor itself where the system is a product, else by conjugate gradients.
 pub(super) fn solve(
@@ -133,11 +123,7 @@ impl Preconditioner for Pair<'_> {
         self.size
     }
 
-<<<<<<< HEAD
     fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
-=======
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
->>>>>>> core
         let r: Vec<Complex<f64>> = r.iter().map(|&r| Complex::new(r, 0.0)).collect();
         // (L − iD)⁻¹ y is the conjugate of (L + iD)⁻¹ applied to the conjugate of y.
         let conjugate: Vec<Complex<f64>> = self.factor.solve(&r, watch)?.iter().map(|y| y.conj()).collect();

@@ -2,18 +2,13 @@
 
 use std::sync::Arc;
 
-use super::refine::Iterate;
-<<<<<<< HEAD
 use super::Answer;
-=======
-use super::{Answer, Key};
-use crate::Watch;
->>>>>>> core
+use super::refine::Iterate;
 use crate::error::SolveError;
+use crate::smooth::Precision;
 use crate::smooth::data_term::DataTerm;
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::smooth::schedule::Stages;
-use crate::smooth::Precision;
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
 use crate::support::watch::{Phase, Watch};
 
@@ -37,13 +32,8 @@ pub(super) enum Factor<D: Scalar, S: Scalar<Wide = D::Wide>> {
 impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
     pub(super) fn solve(&self, right_hand_sides: &[D::Wide], watch: &Watch<'_>) -> Result<Vec<D::Wide>, SolveError> {
         match self {
-<<<<<<< HEAD
             Self::Double(factor) => factor.solve(right_hand_sides, watch),
             Self::Single(factor) => factor.solve(right_hand_sides, watch),
-=======
-            Self::Double(factor) => factor.solve(right_hand_sides, &Watch::none()),
-            Self::Single(factor) => factor.solve(right_hand_sides, &Watch::none()),
->>>>>>> core
         }
     }
 
@@ -85,32 +75,19 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         let values = values(&self.analysis);
         Ok(match (last, precision) {
             (Some((_, Factor::Double(mut factor))), Precision::Double) => {
-<<<<<<< HEAD
                 factor.refactor(&values, watch)?;
                 Factor::Double(factor)
             }
             (Some((_, Factor::Single(mut factor))), Precision::Single) => {
                 factor.refactor(&values, watch)?;
-=======
-                factor.refactor(&values, &Watch::none())?;
-                Factor::Double(factor)
-            }
-            (Some((_, Factor::Single(mut factor))), Precision::Single) => {
-                factor.refactor(&values, &Watch::none())?;
->>>>>>> core
                 Factor::Single(factor)
             }
             (other, _) => {
                 // Its memory is needed for the new one.
                 drop(other);
                 match precision {
-<<<<<<< HEAD
                     Precision::Double => Factor::Double(self.analysis.factor(&values, watch)?),
                     Precision::Single => Factor::Single(self.analysis.factor(&values, watch)?),
-=======
-                    Precision::Double => Factor::Double(self.analysis.factor(&values, &Watch::none())?),
-                    Precision::Single => Factor::Single(self.analysis.factor(&values, &Watch::none())?),
->>>>>>> core
                 }
             }
         })

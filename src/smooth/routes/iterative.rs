@@ -1,8 +1,8 @@
 //! The routes without a factor of the system: conjugate gradients with the matrix in factored form.
 
 use super::eigenvalue::smallest_eigenvalue;
-use super::refine::{Iterate, Refinement, refine};
 use super::problem::{Form, SymmetricPart};
+use super::refine::{Iterate, Refinement, refine};
 use super::{Answer, Task};
 use crate::error::{Cancelled, SolveError};
 use crate::smooth::names::{Route, UsedPrecision};

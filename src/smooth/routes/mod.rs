@@ -24,9 +24,7 @@ use crate::smooth::data_term::Mass;
 use crate::support::watch::{Phase, Watch};
 use complex::ComplexFactors;
 pub(super) use factors::FactorKey;
-pub(super) use problem::{
-    DataPart, Form, Problem, RightHandSide, Symmetry, SymmetricPart, difference,
-};
+pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
 use real::RealRoute;
 use refine::Iterate;
 
@@ -172,8 +170,7 @@ impl Routes {
         }
         // The same system again, with its factor at hand: what failed the last time would fail again.
         if let Some(last) = self.last.take().filter(|last| last.key == *task.key && last.way != Way::Iterations) {
-            let tried =
-                if last.precision == UsedPrecision::Single { Precision::Single } else { Precision::Double };
+            let tried = if last.precision == UsedPrecision::Single { Precision::Single } else { Precision::Double };
             match self.factored(last.way, task, tried, stages) {
                 Ok(answer) => {
                     let precision = last.precision;

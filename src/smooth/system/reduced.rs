@@ -11,7 +11,7 @@ use crate::smooth::Operator;
 use crate::smooth::channels::Channel;
 use crate::smooth::operators::Operators;
 use crate::smooth::routes::{FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, SymmetricPart, Task};
-use crate::smooth::schedule::{Stages, Work};
+use crate::smooth::schedule::Stages;
 use crate::solve::{columns, product, submatrix};
 use crate::support::named::named;
 
@@ -64,8 +64,7 @@ impl ReducedSystem {
             (Energy::Biharmonic, is_symmetric) => {
                 let weights = weights(operators)?;
                 let at_free = |w: &Vec<f64>| free.iter().map(|&v| w[v as usize]).collect();
-                let symmetric_part =
-                    is_symmetric.then(|| (submatrix(laplacian, free), weights.as_ref().map(at_free)));
+                let symmetric_part = is_symmetric.then(|| (submatrix(laplacian, free), weights.as_ref().map(at_free)));
                 Equations::Biharmonic { weights, symmetric_part }
             }
         };
@@ -111,11 +110,6 @@ impl ReducedSystem {
 
     pub(in crate::smooth) fn free(&self) -> &Arc<[u32]> {
         &self.free
-    }
-
-    /// See [`Routes::forecast`].
-    pub(in crate::smooth) fn forecast(&self, settings: SolverSettings) -> (Work, bool, bool) {
-        self.routes.forecast(&problem(&self.matrix, &self.equations), &FactorKey::Plain, settings)
     }
 
     /// Solves for every channel of normalised values, of which those at free vertices do not matter.
@@ -166,8 +160,7 @@ fn problem<'a>(matrix: &'a CscMatrix<f64>, equations: &'a Equations) -> Problem<
         Equations::HarmonicSquared => Form::Normal { weights: None, symmetric_part: None },
         Equations::Biharmonic { weights, symmetric_part } => {
             let part = symmetric_part.as_ref();
-            let symmetric_part =
-                part.map(|(matrix, weights)| SymmetricPart { matrix, weights: weights.as_deref() });
+            let symmetric_part = part.map(|(matrix, weights)| SymmetricPart { matrix, weights: weights.as_deref() });
             Form::Normal { weights: weights.as_deref(), symmetric_part }
         }
     };

@@ -132,7 +132,13 @@ impl Options {
                 }
             }
         }
-        Ok(TikhonovOptions { epsilon, metric, mass_scale: self.mass_scale()?, channels: self.channels() })
+        Ok(TikhonovOptions {
+            epsilon,
+            metric,
+            mass_scale: self.mass_scale()?,
+            channels: self.channels(),
+            ..TikhonovOptions::default()
+        })
     }
 
     pub(in crate::wasm) fn channels(&self) -> usize {
@@ -148,6 +154,7 @@ impl Options {
             constraints: input.constraints(self.unconstrained()?),
             energy: choose("energy", self.energy.as_ref(), &energies)?,
             channels: self.channels(),
+            ..InterpolateOptions::default()
         })
     }
 
@@ -161,6 +168,7 @@ impl Options {
             epsilon: self.epsilon(Operator::Paper)?,
             weights,
             channels: self.channels(),
+            ..LeastSquaresOptions::default()
         })
     }
 
@@ -181,6 +189,7 @@ impl Options {
             lambda: self.lambda.unwrap_or(defaults.lambda),
             mu: self.mu.unwrap_or(defaults.mu),
             channels: self.channels(),
+            ..defaults
         })
     }
 
@@ -194,6 +203,7 @@ impl Options {
             sigma_distance: given("sigmaDistance", self.sigma_distance)?,
             sigma_value: given("sigmaValue", self.sigma_value)?,
             channels: self.channels(),
+            ..BilateralOptions::default()
         })
     }
 }
