@@ -1,9 +1,9 @@
 //! What a threshold leaves of the Morse complex is what simplification leaves of the field.
-use morse_smooth::{field::*, io::ReadOptions, mesh};
+use morse_smooth::{field::*, load::*};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read("www/public/examples/torus_irregular.ply")?;
-    let file = mesh::load(&bytes, &ReadOptions::default(), false)?;
+    let file = load(&bytes, &LoadOptions::default())?;
     let (_, field) = file.fields.iter().find(|(name, _)| name == "noisy").ok_or("no such field")?;
     let hierarchy = morse_hierarchy(&file.mesh, field)?;
     for relative in [0.05, 0.1, 0.5] {

@@ -1,9 +1,9 @@
 //! Of the noisy field's 571 minima and 574 maxima, smoothing leaves 2 and 1.
-use morse_smooth::{io::ReadOptions, mesh, smooth::*};
+use morse_smooth::{load::*, smooth::*};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read("www/public/examples/torus_irregular.ply")?;
-    let file = mesh::load(&bytes, &ReadOptions::default(), false)?;
+    let file = load(&bytes, &LoadOptions::default())?;
     let (_, field) = file.fields.iter().find(|(name, _)| name == "noisy").ok_or("no such field")?;
     let mut smoother = Smoother::new(&file.mesh, SmootherOptions::default())?;
     let smoothed = smoother.tikhonov(field, &TikhonovOptions { epsilon: 0.05, ..Default::default() })?;
