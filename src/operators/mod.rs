@@ -14,6 +14,8 @@ pub use mass::{MassScale, galerkin_mass, lumped_mass, lumped_mass_diagonal};
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::support::csc::valid_csc;
+
 /// The symmetric Laplacian with these weights of these edges: see [`assemble`].
 fn from_symmetric(n: usize, edges: &[[u32; 2]], weights: &[f64]) -> CscMatrix<f64> {
     let mut diagonal = vec![0.0; n];
@@ -63,5 +65,5 @@ fn assemble(edges: &[[u32; 2]], diagonal: &[f64], sides: &[[f64; 2]]) -> CscMatr
         }
     }
     // Rows ascend in every column by construction, so the data is valid.
-    CscMatrix::try_from_csc_data(n, n, offsets, rows, values).unwrap_or_else(|_| CscMatrix::zeros(n, n))
+    valid_csc(n, n, offsets, rows, values)
 }

@@ -42,20 +42,37 @@ const NOT_IN_THE_CORE: [&str; 21] = [
     "mul_add",
 ];
 
-/// The files of the solver in groups: each file may use those of its own group and of the groups before.
-const SOLVER: [&[&str]; 11] = [
-    &["matrix"],
-    &["ordering"],
-    &["tree", "supernodes", "symbolic"],
-    &["scalar", "unit", "lanes"],
+/// The files and folders of the solver in groups: each may use those of its own group and of the groups before.
+const SOLVER: [&[&str]; 5] = [&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]];
+
+/// The files of `solve/ordering`, likewise.
+const ORDERING: [&[&str]; 7] = [
+    &["ids", "permutation"],
+    &["graph", "queue"],
+    &["leaf", "refine"],
+    &["edge_cut", "flow", "minimum_degree"],
+    &["bisection"],
+    &["dissection"],
+    &["mod"],
+];
+
+/// The files of `solve/direct`, likewise.
+const DIRECT: [&[&str]; 10] = [
+    &["tree"],
+    &["supernodes"],
+    &["symbolic"],
+    &["scalar", "lanes"],
+    &["lane_block"],
+    &["numbers"],
     &["front"],
     &["multifrontal", "triangular"],
     &["cholesky"],
-    &["rows", "preconditioner", "cg"],
-    &["elimination", "aggregation"],
-    &["multigrid", "squared"],
     &["mod"],
 ];
+
+/// The files of `solve/iterative`, likewise.
+const ITERATIVE: [&[&str]; 7] =
+    [&["rows"], &["preconditioner"], &["cg"], &["elimination", "aggregation"], &["multigrid"], &["squared"], &["mod"]];
 
 /// The files and folders of `field` in groups, likewise.
 const FIELD: [&[&str]; 10] = [
@@ -168,15 +185,6 @@ fn imports(code: &str) -> Vec<String> {
         .collect()
 }
 
-/// What a file of the solver does against their order.
-fn disorder(name: &str, code: &str) -> Vec<String> {
-    if name.starts_with("ordering/") {
-        let leaves = code.contains("super::super");
-        return leaves.then(|| "knows more than patterns".to_owned()).into_iter().collect();
-    }
-    out_of_order(name, code, &SOLVER, &["super::"])
-}
-
 /// What a file or folder uses of the groups after its own. `paths` lead to its siblings.
 fn out_of_order(name: &str, code: &str, groups: &[&[&str]], paths: &[&str]) -> Vec<String> {
     let Some(group) = groups.iter().position(|group| group.contains(&name)) else {
@@ -214,10 +222,21 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     if path == "mesh/connectivity.rs" {
         forbid(&["f64", "f32"], "the connectivity holds no positions");
     }
-    if let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_suffix(".rs")) {
-        found.extend(disorder(name, &code).into_iter().map(|what| format!("{path} {what}")));
+    if path.starts_with("solve/ordering/") {
+        forbid(&["super::super"], "an ordering knows no more than patterns");
     }
-    for (module, groups) in [("field", &FIELD[..]), ("smooth", &SMOOTH[..]), ("render", &RENDER[..])] {
+    let rooms = [("ordering", &ORDERING[..]), ("direct", &DIRECT[..]), ("iterative", &ITERATIVE[..])];
+    for (room, groups) in rooms {
+        let Some(name) = path.strip_prefix("solve/").and_then(|name| name.strip_prefix(room)?.strip_prefix('/')) else {
+            continue;
+        };
+        let from_crate = format!("{room}::");
+        let used = out_of_order(name.trim_end_matches(".rs"), &code, groups, &[from_crate.as_str(), "super::"]);
+        found.extend(used.into_iter().map(|what| format!("{path} {what}")));
+    }
+    for (module, groups) in
+        [("solve", &SOLVER[..]), ("field", &FIELD[..]), ("smooth", &SMOOTH[..]), ("render", &RENDER[..])]
+    {
         let Some(name) = path.strip_prefix(module).and_then(|name| name.strip_prefix('/')) else { continue };
         let from_crate = format!("{module}::");
         let (name, paths) = match name.split_once('/') {
@@ -297,9 +316,9 @@ fn references_are_those_that_are_cited() {
 #[test]
 fn the_check_catches_what_it_is_for() {
     let bad = [
-        ("solve/cg.rs", "use crate::mesh::TriMesh;"),
-        ("solve/cg.rs", "use crate::{error::SolveError, mesh};"),
-        ("solve/cg.rs", "fn f(m: &crate::TriMesh) {}"),
+        ("solve/iterative/cg.rs", "use crate::mesh::TriMesh;"),
+        ("solve/iterative/cg.rs", "use crate::{error::SolveError, mesh};"),
+        ("solve/iterative/cg.rs", "fn f(m: &crate::TriMesh) {}"),
         ("io/ply.rs", "use crate::mesh::TriMesh;"),
         ("mesh/weld.rs", "use crate::io::MeshData;"),
         ("io/ply.rs", "use std::path::Path;"),
@@ -309,11 +328,14 @@ fn the_check_catches_what_it_is_for() {
         ("field/link.rs", "use crate::operators;"),
         ("operators/mass.rs", "let x = angle.cos();"),
         ("smooth/bounds.rs", "let x = base.powi(3) * y.exp();"),
-        ("solve/scalar.rs", "let x = a.mul_add(b, c);"),
+        ("solve/direct/scalar.rs", "let x = a.mul_add(b, c);"),
         ("solve/ordering/graph.rs", "use crate::mesh::TriMesh;"),
         ("solve/ordering/graph.rs", "use super::super::matrix::norm;"),
-        ("solve/tree.rs", "use super::scalar::Scalar;"),
+        ("solve/direct/tree.rs", "use super::scalar::Scalar;"),
         ("solve/lu.rs", "fn f() {}"),
+        ("solve/direct/lu.rs", "fn f() {}"),
+        ("solve/direct/front.rs", "use crate::solve::iterative::Rows;"),
+        ("solve/matrix.rs", "use super::ordering::Permutation;"),
         ("field/order.rs", "use std::collections::HashMap;"),
         ("field/order.rs", "use super::critical::exact;"),
         ("field/persistence/loops.rs", "use crate::field::simplify::Keep;"),
@@ -333,7 +355,10 @@ fn the_check_catches_what_it_is_for() {
         assert!(!violations(path, source).is_empty(), "{path}: {source}");
     }
     let good = [
-        ("solve/cg.rs", "use crate::error::SolveError; // as crate::mesh does\nlet x = \"crate::mesh \\\" sin(\";"),
+        (
+            "solve/iterative/cg.rs",
+            "use crate::error::SolveError; // as crate::mesh does\nlet x = \"crate::mesh \\\" sin(\";",
+        ),
         ("smooth/mod.rs", "use crate::{error::Result, mesh::{TriMesh, shapes}, solve::norm};\npub(crate) fn f() {}"),
         ("mesh/shapes.rs", "let x = u.cos();"),
         ("field/order.rs", "/// See `crate::smooth`.\nlet cosine = dot(a, b);"),
