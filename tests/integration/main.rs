@@ -48,3 +48,4 @@ mod solve;
 mod support;
 #[cfg(feature = "render")]
 mod ticks;
+mod weld;
