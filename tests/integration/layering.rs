@@ -58,10 +58,11 @@ const SOLVER: [&[&str]; 11] = [
 ];
 
 /// The files and folders of `field` in groups, likewise.
-const FIELD: [&[&str]; 9] = [
-    &["order", "sorting", "scalar_field", "link"],
-    &["direction", "critical", "steepest"],
-    &["hierarchy", "saddles", "level"],
+const FIELD: [&[&str]; 10] = [
+    &["order", "sorting", "link"],
+    &["scalar_field", "sweep"],
+    &["critical", "steepest"],
+    &["delta_hierarchy", "saddles", "level"],
     &["merging"],
     &["persistence"],
     &["features"],
