@@ -10,6 +10,7 @@ use super::options::{invalid, is_absent, read};
 use crate::error::{FieldError, OptionError};
 use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::load::{LoadOptions, load};
+use crate::mesh::WeldOptions;
 
 fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
     let expected = "the name of a mesh format, such as \"ply\"";
@@ -21,7 +22,7 @@ fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
     let input = read(options, &[&["format", "fileName", "weld"]])?;
     let read = ReadOptions { format: mesh_format(input.format.as_deref())?, file_name: input.file_name };
-    let options = LoadOptions { read, weld: input.weld.unwrap_or(false) };
+    let options = LoadOptions { read, weld: input.weld.unwrap_or(false).then(WeldOptions::default) };
     let loaded = load(&bytes(file)?, &options)?;
     let fields = Array::new();
     for (name, values) in &loaded.fields {
