@@ -4,13 +4,14 @@ use tiny_skia::{PixmapMut, PremultipliedColorU8};
 
 use super::brush::{Brush, Group};
 use super::facets::{Facets, GRID, Material};
+use super::frame::{Frame, SAMPLES};
 use super::light::Lamp;
 use super::lines::Probe;
 use super::plane::{Plane, middle, samples};
-use super::{Frame, SAMPLES, room};
 use crate::error::FieldError;
 use crate::render::draw_list::DrawList;
 use crate::render::style;
+use crate::support::memory::with_room;
 
 const NOTHING: u32 = u32::MAX;
 /// How far a line may lie behind the surface that it is drawn on: relative, for rounding; as a part of what the depth changes over
@@ -71,7 +72,7 @@ impl Strip {
     pub(super) fn new(frame: &Frame, rows: usize) -> Result<Self, FieldError> {
         let rows = rows.min(frame.height.max(1));
         let count = rows * frame.width * SAMPLES * SAMPLES;
-        let (mut depths, mut triangles) = (room(count)?, room(count)?);
+        let (mut depths, mut triangles) = (with_room(count)?, with_room(count)?);
         depths.resize(count, 0.0);
         triangles.resize(count, NOTHING);
         let &Frame { left, top, width, height } = frame;
