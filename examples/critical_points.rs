@@ -1,7 +1,7 @@
 //! Reads a mesh with its fields and prints the critical points of one: `cargo run --example critical_points -- file field`.
 #![allow(clippy::print_stdout, reason = "it is what the example is for")]
 
-use morse_smooth::{field::*, io::ReadOptions, mesh};
+use morse_smooth::{Watch, field::*, io::ReadOptions, mesh};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
@@ -10,7 +10,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = mesh::load(&std::fs::read(path)?, &ReadOptions::default(), false)?;
     let (_, values) = file.fields.iter().find(|(known, _)| *known == name).ok_or("no such field")?;
 
-    let found = critical_points(&file.mesh, values, &DeltaOptions::default())?;
+    let field = ScalarField::new(&file.mesh, values)?;
+    let found = critical_points(&field, &DeltaOptions::default(), &Watch::none())?;
     for point in &found.points {
         println!("{:?} at vertex {}, value {}", point.kind, point.vertex, values[point.vertex as usize]);
     }

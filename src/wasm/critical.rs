@@ -7,7 +7,8 @@ use super::convert::{floats, object};
 use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::read;
-use crate::field::{self, CriticalKind};
+use crate::field::{self, CriticalKind, ScalarField};
+use crate::support::watch::Watch;
 
 #[wasm_bindgen]
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
@@ -15,7 +16,9 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = criticalPoints)]
     pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let options = read(options, &[&["delta", "deltaIs", "link", "rule"]])?.delta()?;
-        let found = field::critical_points(self.mesh(), &floats(values)?, &options)?;
+        let values = floats(values)?;
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let found = field::critical_points(&field, &options, &Watch::none())?;
         let points = &found.points;
         let mut columns = Columns::with_room(points.len());
         let mut multiplicities: Vec<u32> = Vec::with_capacity(points.len());
@@ -35,7 +38,9 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = deltaHierarchy)]
     pub fn delta_hierarchy(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let link = read(options, &[&["link"]])?.delta()?.link;
-        let found = field::delta_hierarchy(self.mesh(), &floats(values)?, link)?;
+        let values = floats(values)?;
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let found = field::delta_hierarchy(&field, link, &Watch::none())?;
         let (points, curve) = (&found.points, &found.curve);
         let mut columns = Columns::with_room(points.len());
         let mut vanishes_at: Vec<f64> = Vec::with_capacity(points.len());

@@ -8,8 +8,8 @@ use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{inapplicable, invalid, is_absent, read};
 use crate::error::{Error, OptionError};
-use crate::field;
-use crate::mesh::TriMesh;
+use crate::field::{self, ScalarField};
+use crate::support::watch::Watch;
 
 #[wasm_bindgen]
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
@@ -18,8 +18,9 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = levelSets)]
     pub fn level_sets(&self, values: &Float64Array, levels: &JsValue) -> Result<Object, Thrown> {
         let values = floats(values)?;
-        let levels = read_levels(self.mesh(), &values, levels, &["count", "saddles", "offset"])?;
-        let sets = field::level_sets(self.mesh(), &values, &levels)?;
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let levels = read_levels(&field, levels, &["count", "saddles", "offset"])?;
+        let sets = field::level_sets(&field, &levels, &Watch::none())?;
         let closed: Vec<u8> = sets.closed.iter().map(|&closed| u8::from(closed)).collect();
         let result = Object::new();
         set(&result, "points", &Float64Array::from(sets.points.as_slice()));
@@ -34,8 +35,9 @@ impl RawTriMesh {
     /// `levels` is a `Float64Array` or `{ count }`.
     pub fn bands(&self, values: &Float64Array, levels: &JsValue) -> Result<Object, Thrown> {
         let values = floats(values)?;
-        let levels = read_levels(self.mesh(), &values, levels, &["count"])?;
-        let bands = field::bands(self.mesh(), &values, &levels)?;
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let levels = read_levels(&field, levels, &["count"])?;
+        let bands = field::bands(&field, &levels, &Watch::none())?;
         let result = Object::new();
         set(&result, "levels", &Float64Array::from(bands.levels.as_slice()));
         set(&result, "points", &Float64Array::from(bands.points.as_slice()));
@@ -49,7 +51,7 @@ impl RawTriMesh {
 }
 
 /// `known` are the options that the function takes.
-fn read_levels(mesh: &TriMesh, values: &[f64], levels: &JsValue, known: &[&str]) -> Result<Vec<f64>, Error> {
+fn read_levels(field: &ScalarField<'_>, levels: &JsValue, known: &[&str]) -> Result<Vec<f64>, Error> {
     if let Some(levels) = levels.dyn_ref::<Float64Array>() {
         return Ok(floats(levels)?);
     }
@@ -59,7 +61,7 @@ fn read_levels(mesh: &TriMesh, values: &[f64], levels: &JsValue, known: &[&str])
         if let Some((option, _)) = other.iter().find(|(_, is_there)| *is_there) {
             return Err(inapplicable(option, "`count` says which levels").into());
         }
-        return field::evenly_spaced_levels(mesh, values, count as usize);
+        return field::evenly_spaced_levels(field, count as usize);
     }
     if is_absent(&options.saddles) {
         let expected = match known {
@@ -75,5 +77,5 @@ fn read_levels(mesh: &TriMesh, values: &[f64], levels: &JsValue, known: &[&str])
         None if options.saddles == JsValue::TRUE => None,
         None => return Err(invalid("saddles", "true or a list of vertices").into()),
     };
-    field::saddle_levels(mesh, values, vertices.as_deref(), options.offset.unwrap_or_default())
+    field::saddle_levels(field, vertices.as_deref(), options.offset.unwrap_or_default(), &Watch::none())
 }

@@ -9,7 +9,8 @@ use super::error::{Thrown, set};
 use super::mesh::RawTriMesh;
 use super::options::{invalid, is_absent, read};
 use crate::error::FieldError;
-use crate::field::{self, CriticalKind};
+use crate::field::{self, CriticalKind, ScalarField};
+use crate::support::watch::Watch;
 
 fn numbers(result: &Object, name: &str, values: impl Iterator<Item = f64>) {
     let values: Vec<f64> = values.collect();
@@ -30,7 +31,8 @@ fn kinds(result: &Object, values: impl Iterator<Item = CriticalKind>) {
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
     pub fn persistence(&self, values: &Float64Array) -> Result<Object, Thrown> {
-        let diagram = field::persistence(self.mesh(), &floats(values)?)?;
+        let values = floats(values)?;
+        let diagram = field::persistence(&ScalarField::new(self.mesh(), &values)?, &Watch::none())?;
         let pairs = &diagram.pairs;
         let result = Object::new();
         indices(&result, "extrema", pairs.iter().map(|p| p.extremum));
@@ -47,7 +49,8 @@ impl RawTriMesh {
 
     #[wasm_bindgen(js_name = persistenceCurve)]
     pub fn persistence_curve(&self, values: &Float64Array) -> Result<Object, Thrown> {
-        let curve = field::persistence(self.mesh(), &floats(values)?)?.curve();
+        let values = floats(values)?;
+        let curve = field::persistence(&ScalarField::new(self.mesh(), &values)?, &Watch::none())?.curve();
         let result = Object::new();
         numbers(&result, "threshold", curve.threshold.into_iter());
         indices(&result, "minima", curve.minima.into_iter());
@@ -63,8 +66,9 @@ impl RawTriMesh {
             None if is_absent(&options.keep) => None,
             None => return Err(invalid("keep", "a list of vertices").into()),
         };
-        let simple = field::simplify(self.mesh(), &values, options.extrema(kept.as_deref())?)?;
-        Ok(Float64Array::from(simple.as_slice()))
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let simple = field::simplify(&field, options.extrema(kept.as_deref())?, &Watch::none())?;
+        Ok(Float64Array::from(simple.values.as_slice()))
     }
 
     #[wasm_bindgen(js_name = morseComplex)]
@@ -72,7 +76,9 @@ impl RawTriMesh {
         let options = read(options, &[&["persistence", "persistenceIs", "paths"]])?;
         let style = options.paths()?;
         let persistence = options.persistence()?;
-        let complex = field::morse_complex(self.mesh(), &floats(values)?, persistence, style)?;
+        let values = floats(values)?;
+        let field = ScalarField::new(self.mesh(), &values)?;
+        let complex = field::morse_complex(&field, persistence, style, &Watch::none())?;
         let length = 3 * complex.vertices.len();
         let mut points = Vec::new();
         if points.try_reserve_exact(length).is_err() {
@@ -93,7 +99,8 @@ impl RawTriMesh {
 
     #[wasm_bindgen(js_name = morseHierarchy)]
     pub fn morse_hierarchy(&self, values: &Float64Array) -> Result<Object, Thrown> {
-        let hierarchy = field::morse_hierarchy(self.mesh(), &floats(values)?)?;
+        let values = floats(values)?;
+        let hierarchy = field::morse_hierarchy(&ScalarField::new(self.mesh(), &values)?, &Watch::none())?;
         let nodes = &hierarchy.nodes;
         let result = Object::new();
         indices(&result, "vertices", nodes.iter().map(|node| node.vertex));
@@ -107,7 +114,8 @@ impl RawTriMesh {
 
     pub fn basins(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let persistence = read(options, &[&["persistence", "persistenceIs"]])?.persistence()?;
-        let basins = field::basins(self.mesh(), &floats(values)?, persistence)?;
+        let values = floats(values)?;
+        let basins = field::basins(&ScalarField::new(self.mesh(), &values)?, persistence, &Watch::none())?;
         let result = Object::new();
         set(&result, "descending", &Uint32Array::from(basins.descending.as_slice()));
         set(&result, "ascending", &Uint32Array::from(basins.ascending.as_slice()));

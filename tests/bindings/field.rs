@@ -1,10 +1,10 @@
 //! Meshes, what is read in a field, and operators.
 
 use js_sys::{Array, Int8Array, Uint32Array};
-use morse_smooth::field::{self, CriticalKind, DeltaOptions, Keep, LinkReading, PathStyle, Threshold};
+use morse_smooth::field::{self, CriticalKind, DeltaOptions, Keep, LinkReading, PathStyle, ScalarField, Threshold};
 use morse_smooth::mesh::shapes::{self};
-use morse_smooth::operators;
 use morse_smooth::wasm::{RawTriMesh, version};
+use morse_smooth::{Watch, operators};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -55,9 +55,9 @@ fn warnings_and_welding() {
 
 #[wasm_bindgen_test]
 fn critical_points_are_those_of_rust() {
-    use morse_smooth::field::critical_points;
     let mesh = torus();
     let f = noise(mesh.vertex_count());
+    let field = ScalarField::new(&mesh, &f).expect("a field");
     for (text, options) in [
         ("undefined", DeltaOptions::default()),
         ("null", DeltaOptions::default()),
@@ -77,7 +77,7 @@ fn critical_points_are_those_of_rust() {
         ),
     ] {
         let found: JsValue = raw(&mesh).critical_points(&array(&f), &js(text)).ok().expect("a field").into();
-        let expected = critical_points(&mesh, &f, &options).expect("a field");
+        let expected = field::critical_points(&field, &options, &Watch::none()).expect("a field");
         let kinds = get(&found, "kinds").dyn_into::<Int8Array>().expect("an Int8Array").to_vec();
         let sign = |kind| match kind {
             CriticalKind::Minimum => -1,
@@ -133,7 +133,8 @@ fn level_sets_by_list_and_by_number() {
 fn persistence_and_simplification_are_those_of_rust() {
     let mesh = torus();
     let (given, f) = (raw(&mesh), noise(mesh.vertex_count()));
-    let diagram = field::persistence(&mesh, &f).expect("a field");
+    let field = ScalarField::new(&mesh, &f).expect("a field");
+    let diagram = field::persistence(&field, &Watch::none()).expect("a field");
     let found: JsValue = given.persistence(&array(&f)).ok().expect("a field").into();
     let pairs = &diagram.pairs;
     assert!(pairs.len() > 10, "{}", pairs.len());
@@ -159,7 +160,7 @@ fn persistence_and_simplification_are_those_of_rust() {
         (format!("{{ keep: new Uint32Array({kept:?}) }}"), Keep::Extrema(&kept)),
     ] {
         let simple = given.simplify(&array(&f), &js(&text)).ok().expect("a field").to_vec();
-        assert_eq!(simple, field::simplify(&mesh, &f, keep).expect("a field"), "{text}");
+        assert_eq!(simple, field::simplify(&field, keep, &Watch::none()).expect("a field").values, "{text}");
     }
     for (text, code, name) in [
         ("undefined", "InvalidOption", "threshold"),
@@ -188,6 +189,7 @@ fn persistence_and_simplification_are_those_of_rust() {
 fn the_morse_complex_is_that_of_rust() {
     let mesh = torus();
     let (given, f) = (raw(&mesh), noise(mesh.vertex_count()));
+    let field = ScalarField::new(&mesh, &f).expect("a field");
     let sign = |kind| match kind {
         CriticalKind::Minimum => -1,
         CriticalKind::Saddle => 0,
@@ -196,7 +198,8 @@ fn the_morse_complex_is_that_of_rust() {
     for (text, persistence, style) in
         [("undefined", 0.0, PathStyle::Whole), ("{ persistence: 0.2, paths: 'merged' }", 0.2, PathStyle::Merged)]
     {
-        let expected = field::morse_complex(&mesh, &f, Threshold::Relative(persistence), style).expect("a field");
+        let expected =
+            field::morse_complex(&field, Threshold::Relative(persistence), style, &Watch::none()).expect("a field");
         let found: JsValue = given.morse_complex(&array(&f), &js(text)).ok().expect("a field").into();
         let points: Vec<f64> = expected.vertices.iter().flat_map(|&v| mesh.position(v)).collect();
         assert_eq!(floats(&found, "points"), points);
@@ -204,7 +207,7 @@ fn the_morse_complex_is_that_of_rust() {
         assert_eq!((ids(&found, "offsets"), ids(&found, "vertices")), (expected.offsets, expected.vertices));
         assert_eq!((ids(&found, "saddles"), ids(&found, "extrema")), (expected.saddles, expected.extrema));
     }
-    let hierarchy = field::morse_hierarchy(&mesh, &f).expect("a field");
+    let hierarchy = field::morse_hierarchy(&field, &Watch::none()).expect("a field");
     let found: JsValue = given.morse_hierarchy(&array(&f)).ok().expect("a field").into();
     let nodes = &hierarchy.nodes;
     assert_eq!(ids(&found, "vertices"), nodes.iter().map(|node| node.vertex).collect::<Vec<_>>());
@@ -214,7 +217,7 @@ fn the_morse_complex_is_that_of_rust() {
     assert_eq!(ids(&found, "into"), nodes.iter().map(|node| node.into).collect::<Vec<_>>());
     assert_eq!(ids(&found, "arcs"), hierarchy.arcs.as_flattened());
     for (text, persistence) in [("undefined", 0.0), ("{ persistence: 0.2 }", 0.2)] {
-        let expected = field::basins(&mesh, &f, Threshold::Relative(persistence)).expect("a field");
+        let expected = field::basins(&field, Threshold::Relative(persistence), &Watch::none()).expect("a field");
         let found: JsValue = given.basins(&array(&f), &js(text)).ok().expect("a field").into();
         assert_eq!((ids(&found, "descending"), ids(&found, "ascending")), (expected.descending, expected.ascending));
     }

@@ -7,8 +7,7 @@ use std::time::Instant;
 
 use morse_smooth::Error;
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, critical_points,
-    delta_hierarchy, largest_edge_difference, persistence, simplify, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
 use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
@@ -18,6 +17,8 @@ use morse_smooth::smooth::{
     TikhonovOptions, Unconstrained, constrained_vertices, smoothness,
 };
 use serde_json::Value;
+
+use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference, persistence, simplify};
 
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("MORSE_SMOOTH_DATA")
@@ -117,7 +118,7 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
             check.equal(&format!("{context} {name}"), &Some(u64::from(number)), &split[name].as_u64());
         }
     }
-    let largest = largest_edge_difference(mesh.connectivity(), values);
+    let largest = largest_edge_difference(mesh, values);
     check.close(&format!("{context} max edge variation"), largest, number(&expected["maxEdgeVariation"]), 1e-15);
     let range = value_range(mesh.connectivity(), values).expect("a field");
     check.equal(&format!("{context} minimum"), &range.min, &number(&expected["range"][0]));

@@ -55,9 +55,10 @@ pub(crate) const RULES: Rules = Rules {
         (
             "field",
             &[
-                &["order", "sorting", "scalar_field", "link"],
-                &["direction", "critical", "steepest"],
-                &["hierarchy", "saddles", "level"],
+                &["order", "sorting", "link"],
+                &["scalar_field", "sweep"],
+                &["critical", "steepest"],
+                &["delta_hierarchy", "saddles", "level"],
                 &["merging"],
                 &["persistence"],
                 &["features"],
