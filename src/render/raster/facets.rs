@@ -26,11 +26,11 @@ pub(super) struct Corner {
 /// What triangles are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Material {
-    /// The surface: colours of the values.
+    /// The surface: colors of the values.
     Values,
-    /// A solid: one colour, with what shines of it without light.
+    /// A solid: one color, with what shines of it without light.
     Solid(Rgb, f64),
-    /// A rim: one colour, without light.
+    /// A rim: one color, without light.
     Rim(Rgb),
 }
 

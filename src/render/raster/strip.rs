@@ -28,7 +28,7 @@ pub(super) struct Strip {
     rows: usize,
     end: usize,
     first: usize,
-    /// Of the nearest triangle at each sample; 0 at infinity.
+    /// The depth of the nearest triangle at each sample; 0 at infinity.
     depths: Vec<f32>,
     triangles: Vec<u32>,
     lamp: Option<Lamp>,
@@ -165,7 +165,7 @@ impl Strip {
         self.lamp = Some(lamp);
     }
 
-    /// The triangles in a pixel; each sample by itself where colours have steps.
+    /// The triangles in a pixel; each sample by itself where colors have steps.
     #[inline(never)]
     fn gather(&self, row: usize, column: usize, groups: &mut Vec<Group>, one_by_one: bool) {
         for j in 0..SAMPLES {
