@@ -1,12 +1,20 @@
 //! Names of choices: each choice has one name, which options, reports, messages and the command line all use.
 
-/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. With the feature `serde` the name is what it is written as.
+/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
+/// files are, `any case` stands before them. The feature `serde` writes them as their names.
 ///
 /// ```ignore
 /// named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }
+/// named! { MeshFormat any case { Obj = "obj", Off = "off" } }
 /// ```
 macro_rules! named {
-    ($type:ident { $($variant:ident = $name:literal),* $(,)? }) => {
+    ($type:ident { $($names:tt)* }) => {
+        named! { @ $type, |name, other| name == other, { $($names)* } }
+    };
+    ($type:ident any case { $($names:tt)* }) => {
+        named! { @ $type, str::eq_ignore_ascii_case, { $($names)* } }
+    };
+    (@ $type:ident, $same:expr, { $($variant:ident = $name:literal),* $(,)? }) => {
         impl $type {
             /// All of them, in the order in which they are listed to users.
             pub const ALL: &'static [Self] = &[$(Self::$variant),*];
@@ -22,7 +30,8 @@ macro_rules! named {
             /// The one with this name.
             #[must_use]
             pub fn from_name(name: &str) -> Option<Self> {
-                Self::ALL.iter().copied().find(|choice| choice.name() == name)
+                let same: fn(&str, &str) -> bool = $same;
+                Self::ALL.iter().copied().find(|choice| same(choice.name(), name))
             }
         }
 

@@ -9,7 +9,8 @@ use super::mesh::RawTriMesh;
 use super::options::{invalid, is_absent, read};
 use crate::error::{FieldError, OptionError};
 use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
-use crate::mesh;
+use crate::load::{LoadOptions, load};
+use crate::mesh::WeldOptions;
 
 fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
     let expected = "the name of a mesh format, such as \"ply\"";
@@ -20,8 +21,9 @@ fn mesh_format(name: Option<&str>) -> Result<Option<MeshFormat>, OptionError> {
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
     let input = read(options, &[&["format", "fileName", "weld"]])?;
-    let options = ReadOptions { format: mesh_format(input.format.as_deref())?, file_name: input.file_name };
-    let loaded = mesh::load(&bytes(file)?, &options, input.weld.unwrap_or(false))?;
+    let read = ReadOptions { format: mesh_format(input.format.as_deref())?, file_name: input.file_name };
+    let options = LoadOptions { read, weld: input.weld.unwrap_or(false).then(WeldOptions::default) };
+    let loaded = load(&bytes(file)?, &options)?;
     let fields = Array::new();
     for (name, values) in &loaded.fields {
         fields.push(&Array::of2(&JsValue::from_str(name), &Float64Array::from(values.as_slice())));

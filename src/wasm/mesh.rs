@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::convert::{diagnostics, floats, ids, object, sparse};
 use super::error::Thrown;
 use super::options::{ConstraintInput, from_rule, read};
-use crate::mesh::{self, TriMesh};
+use crate::mesh::{self, TriMesh, WeldOptions};
 use crate::operators;
 use crate::smooth::{self, Unconstrained};
 
@@ -34,7 +34,7 @@ impl RawTriMesh {
         let weld = read(options, &[&["weld"]])?.weld.unwrap_or(false);
         let (positions, triangles) = (floats(positions)?, ids(triangles)?);
         let mesh = if weld {
-            let welded = mesh::weld(&positions, &triangles)?;
+            let welded = mesh::weld(&positions, Some(&triangles), &WeldOptions::default())?;
             TriMesh::new(welded.positions, welded.triangles)?
         } else {
             TriMesh::new(positions, triangles)?
@@ -62,8 +62,8 @@ impl RawTriMesh {
         self.mesh.area()
     }
 
-    pub fn topology(&self) -> JsValue {
-        object(&self.mesh.topology())
+    pub fn topology(&self) -> Result<JsValue, Thrown> {
+        Ok(object(&self.mesh.topology()?))
     }
 
     pub fn warnings(&self) -> JsValue {

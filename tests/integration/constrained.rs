@@ -33,7 +33,10 @@ fn fit(
     epsilon: f64,
 ) -> morse_smooth::Result<Smoothed> {
     let constraints = named(vertices, Unconstrained::Keep);
-    smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon, weights, channels: 1, ..LeastSquaresOptions::default() })
+    smoother.least_squares(
+        f,
+        &LeastSquaresOptions { constraints, epsilon, weights, channels: 1, ..LeastSquaresOptions::default() },
+    )
 }
 
 /// Sparse vertices, and all critical points with their stars.
@@ -59,7 +62,11 @@ fn interpolations_agree_with_dense_algebra() {
                     assert!(wrong < 1e-10, "{context}: {wrong:e}");
                     let solver = &found.reports[0].solver;
                     assert_eq!(solver.unknowns, reference.free(&set).len(), "{context}");
-                    assert_eq!(solver.route.name(), if solver.unknowns == 0 { "none" } else { "cholesky" }, "{context}");
+                    assert_eq!(
+                        solver.route.name(),
+                        if solver.unknowns == 0 { "none" } else { "cholesky" },
+                        "{context}"
+                    );
                 }
             }
         }
@@ -169,14 +176,26 @@ fn alternating_calls_leave_nothing_behind() {
                 let set = set.to_vec();
                 move |s: &mut Smoother, f: &[f64]| {
                     let constraints = named(&set, Unconstrained::Error);
-                    s.interpolate(f, &InterpolateOptions { constraints, energy, channels: 1, ..InterpolateOptions::default() })
+                    s.interpolate(
+                        f,
+                        &InterpolateOptions { constraints, energy, channels: 1, ..InterpolateOptions::default() },
+                    )
                 }
             };
             let fitting = |set: &[u32], weights: Option<Vec<f64>>, epsilon: f64| {
                 let set = set.to_vec();
                 move |s: &mut Smoother, f: &[f64]| {
                     let (constraints, weights) = (named(&set, Unconstrained::Error), weights.as_deref());
-                    s.least_squares(f, &LeastSquaresOptions { constraints, epsilon, weights, channels: 1, ..LeastSquaresOptions::default() })
+                    s.least_squares(
+                        f,
+                        &LeastSquaresOptions {
+                            constraints,
+                            epsilon,
+                            weights,
+                            channels: 1,
+                            ..LeastSquaresOptions::default()
+                        },
+                    )
                 }
             };
             let calls: Vec<Box<Call<'_>>> = vec![

@@ -9,8 +9,9 @@ use morse_smooth::Error;
 use morse_smooth::field::{
     CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, value_range,
 };
-use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
-use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
+use morse_smooth::io::{FieldReadOptions, read_field};
+use morse_smooth::load::{LoadOptions, LoadedMesh, load};
+use morse_smooth::mesh::TriMesh;
 use morse_smooth::operators::MassScale;
 use morse_smooth::smooth::{
     Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Metric, Smoothed, Smoother, SmootherOptions,
@@ -75,7 +76,7 @@ fn number(value: &Value) -> f64 {
 }
 
 fn check_mesh(check: &mut Checker, file: &str, mesh: &TriMesh, expected: &Value) {
-    let topology = mesh.topology();
+    let topology = mesh.topology().unwrap();
     let found = [
         ("vertices", mesh.vertex_count() as i64),
         ("triangles", mesh.triangle_count() as i64),
@@ -159,9 +160,9 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
         check.equal(&format!("{context} simplified by {threshold}"), &found, &expected);
         let change = values.iter().zip(&simple).map(|(f, g)| (f - g).abs()).fold(0.0, f64::max);
         check.equal(&format!("{context} changes by {change}, up to {threshold}"), &(change <= threshold), &true);
-        if mesh.topology().closed {
+        if mesh.topology().unwrap().closed {
             let sum = i64::from(counts.minima) + i64::from(counts.maxima) - i64::from(counts.saddles);
-            check.equal(&format!("{context} m − s + M"), &sum, &mesh.topology().euler_characteristic);
+            check.equal(&format!("{context} m − s + M"), &sum, &mesh.topology().unwrap().euler_characteristic);
         }
     }
     let normalized: Vec<f64> = values.iter().map(|v| (v - range.min) / (range.max - range.min)).collect();
@@ -204,14 +205,37 @@ fn constraints(options: DeltaOptions) -> Constraints<'static> {
 
 fn smoothed(smoother: &mut Smoother, f: &[f64], method: &Method) -> Result<Smoothed, Error> {
     match *method {
-        Method::Tikhonov(metric) => smoother
-            .tikhonov(f, &TikhonovOptions { epsilon: 0.05, metric, mass_scale: MassScale::MeanOne, channels: 1, ..TikhonovOptions::default() }),
-        Method::Constrained(Some(energy), options) => {
-            smoother.interpolate(f, &InterpolateOptions { constraints: constraints(options), energy, channels: 1, ..InterpolateOptions::default() })
-        }
+        Method::Tikhonov(metric) => smoother.tikhonov(
+            f,
+            &TikhonovOptions {
+                epsilon: 0.05,
+                metric,
+                mass_scale: MassScale::MeanOne,
+                channels: 1,
+                ..TikhonovOptions::default()
+            },
+        ),
+        Method::Constrained(Some(energy), options) => smoother.interpolate(
+            f,
+            &InterpolateOptions {
+                constraints: constraints(options),
+                energy,
+                channels: 1,
+                ..InterpolateOptions::default()
+            },
+        ),
         Method::Constrained(None, options) => {
             let constraints = constraints(options);
-            smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon: 0.05, weights: None, channels: 1, ..LeastSquaresOptions::default() })
+            smoother.least_squares(
+                f,
+                &LeastSquaresOptions {
+                    constraints,
+                    epsilon: 0.05,
+                    weights: None,
+                    channels: 1,
+                    ..LeastSquaresOptions::default()
+                },
+            )
         }
     }
 }
@@ -285,7 +309,7 @@ fn check_smoothing(
 
 fn read(folder: &Path, file: &str) -> LoadedMesh {
     let bytes = std::fs::read(folder.join(file)).expect("a file of the data folder");
-    load(&bytes, &ReadOptions::default(), false).expect("a mesh")
+    load(&bytes, &LoadOptions::default()).expect("a mesh")
 }
 
 /// A field of the mesh file, or the text file beside it.

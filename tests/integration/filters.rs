@@ -1,6 +1,7 @@
 //! The filters against dense algebra, closed forms and a double loop over all vertices, and what they promise.
 
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 use morse_smooth::error::{Detail, Error};
 use morse_smooth::mesh::{TriMesh, shapes};
@@ -17,10 +18,12 @@ pub(crate) fn smoother(mesh: &TriMesh, weights: LaplacianWeights) -> Smoother {
 }
 
 pub(crate) fn low_pass(iterations: usize, lambda: f64, mu: f64) -> LowPassOptions {
-    LowPassOptions { iterations, lambda, mu, channels: 1 }, ..LowPassOptions::default() }
+    LowPassOptions { iterations, lambda, mu, channels: 1, ..LowPassOptions::default() }
+}
 
 pub(crate) fn bilateral(iterations: usize, radius: f64, sigma_distance: f64, sigma_value: f64) -> BilateralOptions {
-    BilateralOptions { iterations, radius, sigma_distance, sigma_value, channels: 1 }, ..BilateralOptions::default() }
+    BilateralOptions { iterations, radius, sigma_distance, sigma_value, channels: 1, ..BilateralOptions::default() }
+}
 
 pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, x| if x.abs() > m || x.is_nan() { x.abs() } else { m })
@@ -101,7 +104,10 @@ fn low_pass_agrees_with_dense_algebra() {
                         assert!(wrong < 1e-12 * growth, "{name} {weights:?} {options:?}: {wrong:e} by {growth:e}");
                         let report = &found.reports[0];
                         assert_eq!((report.method.name(), report.equation.name()), ("lowPass", "[18, 24]"));
-                        assert_eq!((report.solver.route.name(), report.solver.iterations), ("none", options.iterations));
+                        assert_eq!(
+                            (report.solver.route.name(), report.solver.iterations),
+                            ("none", options.iterations)
+                        );
                         compared += 1;
                     }
                     Err(problem) => {

@@ -1,12 +1,10 @@
 //! One smoother for many calls and many channels.
 
+use core::ops::ControlFlow;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::LaplacianWeights;
-use core::ops::ControlFlow;
 
-use morse_smooth::smooth::{
-    Method, Metric, Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions,
-};
+use morse_smooth::smooth::{Method, Metric, Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions};
 use morse_smooth::{Phase, Progress, Watch};
 
 #[test]

@@ -4,13 +4,13 @@ use morse_smooth::Watch;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::uniform_laplacian;
 use morse_smooth::solve::{
-    CholeskyAnalysis, Permutation, gram, minimum_degree, norm, product, quadratic_form, submatrix, transposed_product,
+    CholeskyAnalysis, Permutation, gram, minimum_degree, norm, product, submatrix, transposed_product,
 };
 use nalgebra::{DMatrix, DVector};
 use nalgebra_sparse::CscMatrix;
 use proptest::prelude::*;
 
-use crate::support::{column_counts, dense, dominant, random_spd};
+use crate::support::{column_counts, dense, dominant, quadratic_form, random_spd};
 
 fn star(n: usize) -> CscMatrix<f64> {
     // The hub is in the middle of the numbering.
@@ -106,7 +106,7 @@ fn minimum_degree_saves_fill() {
     assert_eq!(played_out(&tree, &check_order(&tree)), 127 + 126);
     // On grids about what the exact minimum degree gives, and far less than the natural order's band.
     for side in [12, 20] {
-        let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap());
+        let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap()).unwrap();
         for matrix in [laplacian.clone(), gram(&laplacian, &Watch::none()).unwrap()] {
             let natural: Vec<u32> = (0..side * side).collect();
             let natural = played_out(&matrix, &natural);

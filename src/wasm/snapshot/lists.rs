@@ -42,6 +42,8 @@ pub(super) fn draw_list(list: &DrawList) -> Object {
     let object = Object::new();
     set(&object, "shades", &singles(&list.shades));
     set(&object, "colours", &Uint8Array::from(colours.as_flattened()));
+    let gap = list.gap.map_or(JsValue::NULL, |[red, green, blue]| u32::from_be_bytes([0, red, green, blue]).into());
+    set(&object, "gap", &gap);
     set(&object, "range", &numbers(&list.range));
     set(&object, "levels", &Float64Array::from(list.levels.as_slice()));
     set(&object, "lines", &list.lines.iter().map(lines).collect::<Array>());

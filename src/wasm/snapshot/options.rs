@@ -5,10 +5,11 @@ use wasm_bindgen::JsValue;
 use super::ingredients::{ComplexInput, LevelInput, PointInput};
 use super::record::Record;
 use crate::error::{Error, OptionError, Result};
+use crate::field::Missing;
 use crate::render::{Camera, Colormap, DrawOptions, SheetOptions, SnapshotOptions};
 
 /// The names that all three functions take.
-pub(super) const DRAW: &[&str] = &["colormap", "range", "levels", "bands", "criticalPoints", "morseComplex"];
+pub(super) const DRAW: &[&str] = &["colormap", "range", "levels", "bands", "criticalPoints", "morseComplex", "missing"];
 /// The names that pictures take.
 pub(super) const PICTURE: &[&str] = &["width", "height", "colorBar", "title", "camera"];
 /// The names that sheets take.
@@ -22,6 +23,7 @@ pub(super) struct Input {
     bands: Option<bool>,
     critical_points: Option<PointInput>,
     morse_complex: Option<ComplexInput>,
+    missing: Option<Missing>,
     width: Option<u32>,
     height: Option<u32>,
     color_bar: Option<bool>,
@@ -45,6 +47,7 @@ impl Input {
             bands: record.boolean("bands")?,
             critical_points: record.get("criticalPoints").map(PointInput::read).transpose()?,
             morse_complex: record.get("morseComplex").map(ComplexInput::read).transpose()?,
+            missing: missing(&record)?,
             width: record.integer("width", pixels)?,
             height: record.integer("height", pixels)?,
             color_bar: record.boolean("colorBar")?,
@@ -65,6 +68,7 @@ impl Input {
             bands: self.bands.unwrap_or(defaults.bands),
             critical_points: self.critical_points.as_ref().map_or(defaults.critical_points, PointInput::glyphs),
             morse_complex: self.morse_complex.as_ref().map_or(defaults.morse_complex, ComplexInput::separatrices),
+            missing: self.missing.unwrap_or(defaults.missing),
         }
     }
 
@@ -103,6 +107,13 @@ fn colormap(record: &Record, option: &str) -> Result<Option<Colormap>, OptionErr
         })
     };
     record.text(option)?.map(named).transpose()
+}
+
+fn missing(record: &Record) -> Result<Option<Missing>, OptionError> {
+    let named = |name: String| {
+        Missing::from_name(&name).ok_or_else(|| record.invalid("missing", "one of \"error\", \"omit\", \"fill\""))
+    };
+    record.text("missing")?.map(named).transpose()
 }
 
 fn camera(value: &JsValue) -> Result<Camera, OptionError> {
