@@ -49,7 +49,7 @@ const ORDERING: [&[&str]; 7] = [
     &["ids", "permutation"],
     &["graph", "queue"],
     &["leaf", "refine"],
-    &["edge_cut", "flow", "minimum_degree"],
+    &["edge_cut", "max_flow", "minimum_degree"],
     &["bisection"],
     &["dissection"],
     &["mod"],
