@@ -4,6 +4,7 @@
 //! compares all that is taken afterwards with it.
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
+mod field;
 mod mesh;
 
 use core::alloc::{GlobalAlloc, Layout};
