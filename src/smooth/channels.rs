@@ -64,7 +64,7 @@ impl<'a> Channels<'a> {
         }
         if n.checked_mul(channels) != Some(values.len()) {
             let expected = n.saturating_mul(channels);
-            return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
+            return Err(FieldError::length_mismatch(expected, values.len(), mesh.triangle_count()).into());
         }
         let missing = gaps.map_or_else(|| [].into(), |gaps| Arc::clone(&gaps.missing));
         let mut all = Self { interleaved: values, ranges: Vec::new(), missing };
