@@ -1,6 +1,6 @@
 // What cannot be brought about from outside: failures that would be bugs of ours.
 import { describe, expect, it } from 'vitest';
-import { MorseSmoothError, attempt } from '../../src/js/error.js';
+import { MorseSmoothError, attempt } from '../../src/js/runtime/error.js';
 
 const thrownBy = (call) => {
   try {
