@@ -1,5 +1,6 @@
 //! The solver of morse-smooth: the only file here that knows its interface.
 
+use morse_smooth::Watch;
 use morse_smooth::error::SolveError;
 use morse_smooth::solve::{CholeskyAnalysis, CholeskyFactor, Permutation, nested_dissection};
 use nalgebra::Complex;
@@ -15,7 +16,7 @@ pub(crate) enum Precision {
 
 /// The old ids in the new order.
 pub(crate) fn order(pattern: &SparsityPattern) -> Vec<u32> {
-    nested_dissection(pattern)
+    nested_dissection(pattern, &Watch::none()).expect("nobody stops it")
 }
 
 pub(crate) struct Analysis(CholeskyAnalysis);
@@ -23,7 +24,7 @@ pub(crate) struct Analysis(CholeskyAnalysis);
 impl Analysis {
     pub(crate) fn new(pattern: SparsityPattern, order: &[u32]) -> Self {
         let permutation = Permutation::new(order.to_vec()).expect("a permutation");
-        Self(CholeskyAnalysis::with_permutation(pattern, &permutation).expect("a symmetric pattern"))
+        Self(CholeskyAnalysis::with_permutation(pattern, &permutation, &Watch::none()).expect("a symmetric pattern"))
     }
 
     pub(crate) fn pattern(&self) -> &SparsityPattern {
@@ -38,10 +39,12 @@ impl Analysis {
     /// None where the matrix is not positive definite to that precision.
     pub(crate) fn factor(&self, values: &Values, precision: Precision) -> Option<Factor> {
         let factor = match (values, precision) {
-            (Values::Real(values), Precision::Double) => self.0.factor(values).map(Factor::Real),
-            (Values::Real(values), Precision::Single) => self.0.factor(values).map(Factor::RealSingle),
-            (Values::Complex(values), Precision::Double) => self.0.factor(values).map(Factor::Complex),
-            (Values::Complex(values), Precision::Single) => self.0.factor(values).map(Factor::ComplexSingle),
+            (Values::Real(values), Precision::Double) => self.0.factor(values, &Watch::none()).map(Factor::Real),
+            (Values::Real(values), Precision::Single) => self.0.factor(values, &Watch::none()).map(Factor::RealSingle),
+            (Values::Complex(values), Precision::Double) => self.0.factor(values, &Watch::none()).map(Factor::Complex),
+            (Values::Complex(values), Precision::Single) => {
+                self.0.factor(values, &Watch::none()).map(Factor::ComplexSingle)
+            }
         };
         match factor {
             Ok(factor) => Some(factor),
@@ -61,10 +64,10 @@ pub(crate) enum Factor {
 impl Factor {
     pub(crate) fn refactor(&mut self, values: &Values) {
         let outcome = match (self, values) {
-            (Self::Real(factor), Values::Real(values)) => factor.refactor(values),
-            (Self::RealSingle(factor), Values::Real(values)) => factor.refactor(values),
-            (Self::Complex(factor), Values::Complex(values)) => factor.refactor(values),
-            (Self::ComplexSingle(factor), Values::Complex(values)) => factor.refactor(values),
+            (Self::Real(factor), Values::Real(values)) => factor.refactor(values, &Watch::none()),
+            (Self::RealSingle(factor), Values::Real(values)) => factor.refactor(values, &Watch::none()),
+            (Self::Complex(factor), Values::Complex(values)) => factor.refactor(values, &Watch::none()),
+            (Self::ComplexSingle(factor), Values::Complex(values)) => factor.refactor(values, &Watch::none()),
             _ => panic!("values of the factor's kind"),
         };
         outcome.expect("positive definite");
@@ -73,10 +76,10 @@ impl Factor {
     /// For right-hand sides one after the other.
     pub(crate) fn solve(&self, right_hand_sides: &Values) -> Values {
         let solution = match (self, right_hand_sides) {
-            (Self::Real(factor), Values::Real(b)) => factor.solve(b).map(Values::Real),
-            (Self::RealSingle(factor), Values::Real(b)) => factor.solve(b).map(Values::Real),
-            (Self::Complex(factor), Values::Complex(b)) => factor.solve(b).map(Values::Complex),
-            (Self::ComplexSingle(factor), Values::Complex(b)) => factor.solve(b).map(Values::Complex),
+            (Self::Real(factor), Values::Real(b)) => factor.solve(b, &Watch::none()).map(Values::Real),
+            (Self::RealSingle(factor), Values::Real(b)) => factor.solve(b, &Watch::none()).map(Values::Real),
+            (Self::Complex(factor), Values::Complex(b)) => factor.solve(b, &Watch::none()).map(Values::Complex),
+            (Self::ComplexSingle(factor), Values::Complex(b)) => factor.solve(b, &Watch::none()).map(Values::Complex),
             _ => panic!("right-hand sides of the factor's kind"),
         };
         solution.expect("right-hand sides that fit")

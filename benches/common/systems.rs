@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use morse_smooth::TriMesh;
+use morse_smooth::Watch;
 use morse_smooth::mesh::shapes::Random;
 use morse_smooth::operators::{MassScale, cotan_laplacian, galerkin_mass, lumped_mass_diagonal};
 use morse_smooth::solve::{gram, submatrix};
@@ -76,11 +77,15 @@ impl System {
             Kind::Complex => return Self::complex(mesh, &laplacian, &fields, epsilon),
             Kind::Mass => {
                 let mass = galerkin_mass(mesh, MassScale::MeanOne).expect("a mesh with area");
-                (&gram(&laplacian).expect("it fits") + &(mass * epsilon), mesh.positions().to_vec(), fields)
+                (
+                    &gram(&laplacian, &Watch::none()).expect("it fits") + &(mass * epsilon),
+                    mesh.positions().to_vec(),
+                    fields,
+                )
             }
             Kind::Identity => {
                 let identity = CscMatrix::identity(n) * epsilon;
-                (&gram(&laplacian).expect("it fits") + &identity, mesh.positions().to_vec(), fields)
+                (&gram(&laplacian, &Watch::none()).expect("it fits") + &identity, mesh.positions().to_vec(), fields)
             }
         };
         let (pattern, values) = matrix.into_pattern_and_values();

@@ -2,8 +2,10 @@
 
 use super::link::LinkScratch;
 use super::order::VertexOrder;
-use crate::error::{Error, OptionError};
-use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use super::scalar_field::ScalarField;
+use crate::error::{OptionError, Result};
+use crate::mesh::{Connectivity, LinkKind};
+use crate::support::watch::Watch;
 
 /// What kind of critical point a vertex is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -112,41 +114,41 @@ pub struct DeltaOptions {
 /// gives no critical point.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where δ is negative or not finite.
+/// `InvalidOption` where δ is negative or not finite; `Cancelled`.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let counts = field::critical_points(&torus, &height, &field::DeltaOptions::default())?.counts;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let counts = field::critical_points(&height, &field::DeltaOptions::default(), &Watch::none())?.counts;
 /// assert_eq!((counts.minima, counts.maxima, counts.saddles, counts.index_sum), (1, 1, 2, Some(0)));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn critical_points(mesh: &TriMesh, values: &[f64], options: &DeltaOptions) -> Result<CriticalPoints, Error> {
-    let connectivity = mesh.connectivity();
-    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+pub fn critical_points(field: &ScalarField<'_>, options: &DeltaOptions, watch: &Watch<'_>) -> Result<CriticalPoints> {
+    let (connectivity, values, order) = (field.mesh().connectivity(), field.values(), field.order());
     if !(options.delta.is_finite() && options.delta >= 0.0) {
-        let expected = "a finite number that is not negative".to_owned();
-        return Err(OptionError::InvalidOption { option: "delta".to_owned(), expected }.into());
+        return Err(OptionError::invalid("delta", "a finite number that is not negative").into());
     }
+    watch.tick(30 * values.len() as u64)?;
     if options.delta == 0.0 {
         return Ok(exact(connectivity, order));
     }
     let delta = match options.scale {
         DeltaScale::Absolute => options.delta,
-        DeltaScale::Relative => options.delta * largest_edge_difference(connectivity, values),
+        DeltaScale::Relative => options.delta * largest_edge_difference(field),
     };
     let sign = |i: u32, j: u32| {
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
     };
-    Ok(classify(connectivity, options, false, &sweep(connectivity, sign), sign))
+    Ok(classify(connectivity, options, false, &sign_changes(connectivity, sign), sign))
 }
 
 /// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
 pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
-    exact_from(connectivity, order, &exact_states(connectivity, order))
+    exact_from(connectivity, order, &exact_changes(connectivity, order))
 }
 
 #[inline(never)]
@@ -165,7 +167,7 @@ pub(super) struct Measured {
     pub(super) largest: f64,
 }
 
-/// As [`sweep`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
+/// As [`sign_changes`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
 #[inline(never)]
 pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> Measured {
     let values = order.values();
@@ -198,25 +200,23 @@ pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> M
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
-///
-/// # Panics
-/// Where `values` has not one value per vertex.
 #[must_use]
-pub fn largest_edge_difference(connectivity: &Connectivity, values: &[f64]) -> f64 {
-    connectivity
-        .edges()
+pub fn largest_edge_difference(field: &ScalarField<'_>) -> f64 {
+    let values = field.values();
+    let edges = field.mesh().connectivity().edges();
+    edges
         .iter()
         .map(|&[a, b]| (values[a as usize] - values[b as usize]).abs())
         .fold(0.0, |largest, x| if x > largest { x } else { largest })
 }
 
-/// The states of all vertices at δ = 0, see [`sweep`].
+/// The states of all vertices at δ = 0, see [`sign_changes`].
 #[inline(never)]
-pub(super) fn exact_states(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
-    sweep(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
+pub(super) fn exact_changes(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
+    sign_changes(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
 }
 
-/// Bits of the state that [`sweep`] leaves at a vertex: which signs its link vertices have, and above them the number of
+/// Bits of the state that [`sign_changes`] leaves at a vertex: which signs its link vertices have, and above them the number of
 /// link edges with opposite signs.
 const SAW_BELOW: u32 = 1;
 const SAW_NEUTRAL: u32 = 2;
@@ -227,7 +227,7 @@ pub(super) const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
 /// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
-pub(super) fn sweep(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
+pub(super) fn sign_changes(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
     let mut states = vec![0_u32; connectivity.vertex_count()];
     for &[a, b, c] in connectivity.triangles() {
         let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));

@@ -1,7 +1,7 @@
 //! Components of growing sublevel or superlevel sets, by union and find.
 
-use super::direction::Sweep;
 use super::saddles::Saddles;
+use super::sweep::Sweep;
 use crate::support::union_find::UnionFind;
 
 /// The components of what a sweep has met, each named by the extremum that it began with.

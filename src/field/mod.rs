@@ -2,9 +2,9 @@
 //! simplification, the Morse complex, level sets.
 
 mod critical;
-mod direction;
+
+mod delta_hierarchy;
 mod features;
-mod hierarchy;
 mod level;
 mod link;
 mod merging;
@@ -16,16 +16,17 @@ mod scalar_field;
 mod simplify;
 mod sorting;
 mod steepest;
+mod sweep;
 
 pub use critical::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading,
     critical_points, largest_edge_difference,
 };
+pub use delta_hierarchy::{DeltaCurve, DeltaHierarchy, HierarchyPoint, delta_hierarchy};
 pub use features::{Features, feature_points, with_stars};
-pub use hierarchy::{DeltaCurve, DeltaHierarchy, HierarchyPoint, delta_hierarchy};
 pub use level::{Bands, LevelSets, bands, evenly_spaced_levels, level_sets, saddle_levels};
 pub use morse::{Basins, MorseComplex, MorseHierarchy, MorseNode, PathStyle, basins, morse_complex, morse_hierarchy};
 pub use order::{Threshold, ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
 pub use scalar_field::{Missing, ScalarField};
-pub use simplify::{Keep, simplify};
+pub use simplify::{Keep, Simplified, simplify};

@@ -1,7 +1,7 @@
 //! The total order of the vertices by (value, id): simulation of simplicity \[Edelsbrunner90\].
 
-use crate::error::{Error, FieldError, OptionError};
-use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use crate::error::{FieldError, OptionError};
+use crate::mesh::{Connectivity, LinkKind};
 
 /// One finite value per vertex, ordered by (value, id), so that no two vertices are ever equal.
 #[derive(Debug, Clone, Copy)]
@@ -112,16 +112,15 @@ impl Default for Threshold {
 
 impl Threshold {
     /// In the units of the values. `option` is its name in errors.
-    pub(super) fn absolute(self, mesh: &TriMesh, values: &[f64], option: &str) -> Result<f64, Error> {
+    pub(super) fn absolute(self, range: ValueRange, option: &str) -> Result<f64, OptionError> {
         let (Self::Relative(threshold) | Self::Absolute(threshold)) = self;
         if !(threshold.is_finite() && threshold >= 0.0) {
-            let expected = "a finite number that is not negative".to_owned();
-            return Err(OptionError::InvalidOption { option: option.to_owned(), expected }.into());
+            return Err(OptionError::invalid(option, "a finite number that is not negative"));
         }
         Ok(match self {
             Self::Absolute(_) => threshold,
             // A product that overflows is beyond all differences.
-            Self::Relative(_) => (threshold * value_range(mesh.connectivity(), values)?.length()).min(f64::MAX),
+            Self::Relative(_) => (threshold * range.length()).min(f64::MAX),
         })
     }
 }

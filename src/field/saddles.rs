@@ -1,6 +1,6 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
-use super::critical::{ONE_CHANGE, exact_states};
+use super::critical::{ONE_CHANGE, exact_changes};
 use super::link::{LinkSides, opposite};
 use super::order::VertexOrder;
 use super::sorting::{ascending_bits, sort_by_key};
@@ -41,7 +41,7 @@ impl Saddles {
     #[inline(never)]
     pub(super) fn with_tips(mesh: &TriMesh, order: VertexOrder<'_>, tips: &[bool], upper: bool) -> Self {
         let connectivity = mesh.connectivity();
-        let states = exact_states(connectivity, order);
+        let states = exact_changes(connectivity, order);
         let kinds = connectivity.link_kinds();
         let mut sides = LinkSides::new(mesh.vertex_count());
         let mut this = Self::empty();
@@ -70,7 +70,7 @@ impl Saddles {
     #[inline(never)]
     pub(super) fn steepest(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
         let connectivity = mesh.connectivity();
-        let states = exact_states(connectivity, order);
+        let states = exact_changes(connectivity, order);
         let kinds = connectivity.link_kinds();
         let mut sides = LinkSides::new(mesh.vertex_count());
         let mut this = Self::empty();

@@ -6,8 +6,9 @@ use super::solids::{Shape, ball, octahedron, tetrahedron};
 use super::style::{self, Light, Rim, SolidSize, Stroke};
 use super::surface::Surface;
 use crate::error::{Error, FieldError, OptionError};
-use crate::field::{self, CriticalKind, CriticalPoint, DeltaOptions, LevelSets, MorseComplex, PathStyle, value_range};
+use crate::field::{self, CriticalKind, CriticalPoint, DeltaOptions, LevelSets, MorseComplex, PathStyle, ScalarField};
 use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
 
 /// As many as [`field::level_sets`] takes.
 const MOST_LEVELS: u32 = 10_000;
@@ -105,10 +106,11 @@ impl DrawList {
         options: &DrawOptions<'_>,
     ) -> Result<Self, Error> {
         options.check()?;
-        let found = value_range(mesh.connectivity(), values)?;
+        let field = ScalarField::new(mesh, values)?;
+        let found = field.range();
         let range = options.range.unwrap_or([found.min, found.max]);
         let shades: Vec<f64> = surface.vertices.iter().map(|&v| shade(values[v as usize], range)).collect();
-        let (levels, sets) = level_lines(mesh, values, range, options.levels)?;
+        let (levels, sets) = level_lines(&field, range, options.levels)?;
         let colors = options.colormap.table();
         let (mut steps, mut step_colors) = (Vec::new(), Vec::new());
         if options.bands {
@@ -120,9 +122,9 @@ impl DrawList {
         if let Some(sets) = sets {
             lines.push(placed_levels(surface, &sets)?);
         }
-        lines.extend(separatrices(mesh, surface, values, options.morse_complex)?);
+        lines.extend(separatrices(&field, surface, options.morse_complex)?);
         let size = SolidSize { cover: style::SIZE.cover * surface.area, ..style::SIZE };
-        let points = critical_points(mesh, values, options.critical_points)?;
+        let points = critical_points(&field, options.critical_points)?;
         let solids = solids(mesh, surface, &points, size);
         Ok(Self { shades, colors, steps, step_colors, range, levels, lines, solids, size, light: style::LIGHT })
     }
@@ -146,8 +148,7 @@ fn shade(value: f64, [low, high]: [f64; 2]) -> f64 {
 
 /// The levels, ascending, and their lines.
 fn level_lines<'a>(
-    mesh: &TriMesh,
-    values: &[f64],
+    field: &ScalarField<'_>,
     [low, high]: [f64; 2],
     wanted: Levels<'a>,
 ) -> Result<(Vec<f64>, Option<std::borrow::Cow<'a, LevelSets>>), Error> {
@@ -173,7 +174,7 @@ fn level_lines<'a>(
         Levels::Count(_) => Vec::new(),
         Levels::At(levels) => levels.to_vec(),
     };
-    let sets = field::level_sets(mesh, values, &levels)?;
+    let sets = field::level_sets(field, &levels, &Watch::none())?;
     let mut levels = levels;
     levels.sort_by(f64::total_cmp);
     levels.dedup();
@@ -197,18 +198,14 @@ fn are_offsets(offsets: &[u32], points: usize) -> bool {
 }
 
 /// The lines to minima and those to maxima.
-fn separatrices(
-    mesh: &TriMesh,
-    surface: &Surface,
-    values: &[f64],
-    wanted: Separatrices<'_>,
-) -> Result<Vec<Lines>, Error> {
+fn separatrices(field: &ScalarField<'_>, surface: &Surface, wanted: Separatrices<'_>) -> Result<Vec<Lines>, Error> {
+    let mesh = field.mesh();
     let traced;
     let complex: &MorseComplex = match wanted {
         Separatrices::None => return Ok(Vec::new()),
         Separatrices::Traced(complex) => complex,
         Separatrices::Above(threshold) => {
-            traced = field::morse_complex(mesh, values, threshold, PathStyle::Merged)?;
+            traced = field::morse_complex(field, threshold, PathStyle::Merged, &Watch::none())?;
             &traced
         }
     };
@@ -237,15 +234,14 @@ fn separatrices(
 }
 
 fn critical_points<'a>(
-    mesh: &TriMesh,
-    values: &[f64],
+    field: &ScalarField<'_>,
     wanted: Glyphs<'a>,
 ) -> Result<std::borrow::Cow<'a, [CriticalPoint]>, Error> {
     Ok(match wanted {
         Glyphs::None => Vec::new().into(),
-        Glyphs::Found => field::critical_points(mesh, values, &DeltaOptions::default())?.points.into(),
+        Glyphs::Found => field::critical_points(field, &DeltaOptions::default(), &Watch::none())?.points.into(),
         Glyphs::Points(points) => {
-            check_vertices(mesh, points.iter().map(|point| point.vertex))?;
+            check_vertices(field.mesh(), points.iter().map(|point| point.vertex))?;
             points.into()
         }
     })

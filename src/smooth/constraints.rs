@@ -3,8 +3,9 @@
 use super::channels::{Channel, Channels};
 use super::system::Reach;
 use crate::error::{Result, SmoothError};
-use crate::field::{Features, feature_points, with_stars};
+use crate::field::{Features, ScalarField, feature_points, with_stars};
 use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
 
 /// What becomes of a component of the mesh without a constrained vertex, where the equations say nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,7 +56,9 @@ impl ConstraintSet {
     pub(super) fn new(mesh: &TriMesh, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
         let mut features = Vec::new();
         for c in 0..channels.count() {
-            features.extend(feature_points(mesh, &channels.values(c), &constraints.features)?);
+            let values = channels.values(c);
+            let field = [ScalarField::new(mesh, &values)?];
+            features.extend(feature_points(&field, &constraints.features, &Watch::none())?);
             if matches!(constraints.features, Features::Vertices(_)) {
                 break;
             }

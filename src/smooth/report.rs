@@ -10,9 +10,11 @@ use super::routes::difference;
 use super::system::{Solution, Solved};
 use crate::error::{FieldError, Result};
 use crate::field::{
-    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, VertexOrder, critical_points,
+    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, ScalarField, VertexOrder,
+    critical_points,
 };
 use crate::solve::{norm, product};
+use crate::support::watch::Watch;
 
 /// Smoothed values and their reports.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,8 +145,10 @@ pub(super) fn measure(
     let difference = difference(x, f);
     let energies_before = energies(&smoother.laplacian, f);
     let energies_after = energies(&smoother.laplacian, x);
-    let before = critical_points(&smoother.mesh, &channel.values, &DeltaOptions::default())?;
-    let after = critical_points(&smoother.mesh, smoothed, &DeltaOptions::default())?;
+    let exact = |values: &[f64]| {
+        critical_points(&ScalarField::new(&smoother.mesh, values)?, &DeltaOptions::default(), &Watch::none())
+    };
+    let (before, after) = (exact(&channel.values)?, exact(smoothed)?);
     let kept = facts.constraints.map(|set| Kept::new(set, &before, &after));
     let l2 = norm(&difference);
     Ok(SmoothReport {

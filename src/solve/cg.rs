@@ -2,6 +2,7 @@
 
 use super::matrix::norm;
 use super::preconditioner::Preconditioner;
+use crate::Watch;
 use crate::error::SolveError;
 
 /// What counts as a lower residual.
@@ -52,14 +53,14 @@ pub struct CgInfo {
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{mesh::shapes, operators::uniform_laplacian};
+/// use morse_smooth::{Watch, mesh::shapes, operators::uniform_laplacian};
 /// use morse_smooth::solve::{CgOptions, Multigrid, conjugate_gradient, transposed_product};
 /// let mut matrix = uniform_laplacian(&shapes::torus(60, 40, 0.2)?);
 /// matrix.triplet_iter_mut().filter(|(i, j, _)| i == j).for_each(|(_, _, value)| *value += 0.01);
-/// let multigrid = Multigrid::new(&matrix)?;
+/// let multigrid = Multigrid::new(&matrix, &Watch::none())?;
 /// let (b, mut x) = (vec![1.0; 2400], vec![0.0; 2400]);
 /// let apply = &mut |x: &[f64]| transposed_product(&matrix, x);
-/// let info = conjugate_gradient(apply, &multigrid, &b, &mut x, &CgOptions::default())?;
+/// let info = conjugate_gradient(apply, &multigrid, &b, &mut x, &CgOptions::default(), &Watch::none())?;
 /// assert!(info.iterations < 30 && (x[7] - 100.0).abs() < 1e-6);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
@@ -69,6 +70,7 @@ pub fn conjugate_gradient(
     b: &[f64],
     x: &mut [f64],
     options: &CgOptions,
+    watch: &Watch<'_>,
 ) -> Result<CgInfo, SolveError> {
     let n = b.len();
     for actual in [preconditioner.size(), x.len()] {
@@ -93,7 +95,7 @@ pub fn conjugate_gradient(
     // The recursive residual drifts from the true one: restart from the true one until that is small too.
     while start > target {
         let limits = Limits { most: options.max_iterations - iterations, patience: options.patience };
-        let used = descend(apply, preconditioner, &mut residual, x, target, limits)?;
+        let used = descend(apply, preconditioner, &mut residual, x, target, limits, watch)?;
         iterations += used;
         let reached;
         (residual, reached) = true_residual(apply, b, x)?;
@@ -141,6 +143,7 @@ pub(super) fn descend(
     x: &mut [f64],
     target: f64,
     Limits { most, patience }: Limits,
+    watch: &Watch<'_>,
 ) -> Result<usize, SolveError> {
     let scale = norm(residual);
     if scale == 0.0 {
@@ -152,7 +155,7 @@ pub(super) fn descend(
     let (mut image, mut curvature) = (Vec::new(), 1.0);
     let (mut smallest, mut since) = (1.0_f64, 0);
     for iteration in 0..most {
-        let z = preconditioner.apply(residual)?;
+        let z = preconditioner.apply(residual, watch)?;
         let ratio = if iteration == 0 { 0.0 } else { -dot(&z, &image) / curvature };
         direction.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);
         let slope = dot(residual, &z);

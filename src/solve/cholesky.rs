@@ -11,6 +11,7 @@ use super::scalar::Scalar;
 use super::symbolic::{FactorSize, Symbolic};
 use super::triangular::{solve_block, solve_one};
 use super::unit::Unit;
+use crate::Watch;
 use crate::error::SolveError;
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
@@ -30,9 +31,9 @@ impl CholeskyAnalysis {
     ///
     /// # Errors
     /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
-    pub fn new(pattern: SparsityPattern) -> Result<Self, SolveError> {
+    pub fn new(pattern: SparsityPattern, watch: &Watch<'_>) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
-        let permutation = Permutation::of_valid(nested_dissection(&pattern));
+        let permutation = Permutation::of_valid(nested_dissection(&pattern, watch)?);
         Ok(Self::analyze(pattern, &permutation))
     }
 
@@ -41,7 +42,11 @@ impl CholeskyAnalysis {
     ///
     /// # Errors
     /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where the permutation has another size.
-    pub fn with_permutation(pattern: SparsityPattern, permutation: &Permutation) -> Result<Self, SolveError> {
+    pub fn with_permutation(
+        pattern: SparsityPattern,
+        permutation: &Permutation,
+        _watch: &Watch<'_>,
+    ) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
         let (expected, actual) = (pattern.major_dim(), permutation.new_to_old().len());
         if expected != actual {
@@ -89,7 +94,7 @@ impl CholeskyAnalysis {
     /// # Errors
     /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, and `OutOfMemory` with the number of
     /// bytes, before anything is computed.
-    pub fn factor<T: Scalar>(&self, values: &[T::Wide]) -> Result<CholeskyFactor<T>, SolveError> {
+    pub fn factor<T: Scalar>(&self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
         let mut factor = self.allocate::<T>().ok_or_else(|| SolveError::OutOfMemory { bytes: self.memory::<T>() })?;
         factor.compute(values)?;
@@ -145,7 +150,7 @@ impl<T: Scalar> CholeskyFactor<T> {
     /// # Errors
     /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column; after the last, solving gives the same
     /// error.
-    pub fn refactor(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
+    pub fn refactor(&mut self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<(), SolveError> {
         self.analysis.check::<T>(values)?;
         self.compute(values)
     }
@@ -162,7 +167,7 @@ impl<T: Scalar> CholeskyFactor<T> {
     ///
     /// # Errors
     /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`.
-    pub fn solve(&self, right_hand_sides: &[T::Wide]) -> Result<Vec<T::Wide>, SolveError> {
+    pub fn solve(&self, right_hand_sides: &[T::Wide], _watch: &Watch<'_>) -> Result<Vec<T::Wide>, SolveError> {
         let n = self.analysis.unknowns();
         if right_hand_sides.is_empty() && n == 0 {
             return Ok(Vec::new());

@@ -2,6 +2,7 @@
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::Watch;
 use crate::error::SolveError;
 
 /// What a 32-bit address space can give to one matrix or factor beside everything else.
@@ -63,7 +64,7 @@ pub fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
 /// # Errors
 /// `OutOfMemory` where rows of A are so full that AᵀA would not fit the address space: one vertex with 20,000 neighbours
 /// makes 400 million entries.
-pub fn gram(matrix: &CscMatrix<f64>) -> Result<CscMatrix<f64>, SolveError> {
+pub fn gram(matrix: &CscMatrix<f64>, _watch: &Watch<'_>) -> Result<CscMatrix<f64>, SolveError> {
     let columns = matrix.ncols();
     let by_rows = Rows::new(matrix);
     check_gram(matrix, &by_rows)?;

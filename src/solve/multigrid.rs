@@ -8,6 +8,7 @@ use super::elimination::Elimination;
 use super::matrix::norm;
 use super::preconditioner::Preconditioner;
 use super::rows::{Rows, SymmetricRows};
+use crate::Watch;
 use crate::error::SolveError;
 
 /// This many unknowns are solved for directly, in less time than another level would take.
@@ -52,11 +53,11 @@ impl Multigrid {
     /// `DimensionMismatch` where it is not square; `NotSymmetric`, by the pattern; `NonFiniteEntry`; `NotPositiveDefinite`
     /// where a diagonal entry, of a coarse level too, or a pivot on the coarsest is not positive; `OutOfMemory` past 2³²
     /// entries.
-    pub fn new(matrix: &CscMatrix<f64>) -> Result<Self, SolveError> {
-        Self::from_rows(SymmetricRows::new(matrix)?)
+    pub fn new(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        Self::from_rows(SymmetricRows::new(matrix)?, watch)
     }
 
-    pub(super) fn from_rows(matrix: SymmetricRows) -> Result<Self, SolveError> {
+    pub(super) fn from_rows(matrix: SymmetricRows, _watch: &Watch<'_>) -> Result<Self, SolveError> {
         let size = matrix.size();
         let (elimination, matrix) = Elimination::new(matrix)?;
         let (levels, coarsest) = hierarchy(matrix).map_err(|error| elimination.name_unknown(error))?;
@@ -78,7 +79,13 @@ impl Multigrid {
     }
 
     /// x with A x = r to a relative residual of `tolerance`, of the system without what is eliminated.
-    pub(super) fn solve(&self, mut r: Vec<f64>, tolerance: f64, most: usize) -> Result<Vec<f64>, SolveError> {
+    pub(super) fn solve(
+        &self,
+        mut r: Vec<f64>,
+        tolerance: f64,
+        most: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<f64>, SolveError> {
         let mut residual = self.elimination.forward(&mut r);
         let mut x = vec![0.0; residual.len()];
         let target = tolerance * norm(&residual);
@@ -89,6 +96,7 @@ impl Multigrid {
             &mut x,
             target,
             Limits { most, patience: most },
+            watch,
         )?;
         self.elimination.backward(&x, &mut r);
         Ok(r)
@@ -117,7 +125,7 @@ impl Preconditioner for Multigrid {
         self.size
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         let mut z = r.to_vec();
         let reduced = self.elimination.forward(&mut z);
         self.elimination.backward(&self.cycle(0, &reduced), &mut z);
@@ -133,7 +141,7 @@ impl Preconditioner for Reduced<'_> {
         self.0.elimination.kept.len()
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         Ok(self.0.cycle(0, r))
     }
 }

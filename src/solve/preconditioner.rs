@@ -3,6 +3,7 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::rows::SymmetricRows;
+use crate::Watch;
 use crate::error::SolveError;
 
 /// An approximation M⁻¹ of the inverse of a symmetric positive definite matrix.
@@ -14,8 +15,8 @@ pub trait Preconditioner {
     /// definite; what an inner iteration varies does no harm.
     ///
     /// # Errors
-    /// Those of an inner iteration; closed formulas have none.
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError>;
+    /// `Cancelled`, and those of an inner iteration.
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError>;
 }
 
 /// M = diag(A) \[Hestenes52\].
@@ -48,7 +49,7 @@ impl Preconditioner for Jacobi {
         self.inverse.len()
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         Ok(r.iter().zip(&self.inverse).map(|(r, inverse)| r * inverse).collect())
     }
 }
@@ -145,7 +146,7 @@ impl Preconditioner for IncompleteCholesky {
         self.factor.size()
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         let (factor, mut z) = (&self.factor, r.to_vec());
         for i in 0..z.len() {
             z[i] = (z[i] - factor.rows.gather(factor.lower(i), &z)) * factor.diagonal(i);

@@ -5,6 +5,7 @@ use nalgebra_sparse::CscMatrix;
 use super::multigrid::Multigrid;
 use super::preconditioner::Preconditioner;
 use super::rows::SymmetricRows;
+use crate::Watch;
 use crate::error::SolveError;
 
 /// Most inner iterations; multigrid takes a handful, but for rows of needle triangles.
@@ -38,7 +39,12 @@ impl SquaredSum {
     ///
     /// # Errors
     /// `DimensionMismatch`; `NonFiniteEntry`; else as [`Multigrid::new`] for L + D.
-    pub fn new(matrix: &CscMatrix<f64>, diagonal: &[f64], tolerance: f64) -> Result<Self, SolveError> {
+    pub fn new(
+        matrix: &CscMatrix<f64>,
+        diagonal: &[f64],
+        tolerance: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Self, SolveError> {
         if matrix.ncols() != diagonal.len() {
             return Err(SolveError::DimensionMismatch { expected: matrix.ncols(), actual: diagonal.len() });
         }
@@ -47,7 +53,7 @@ impl SquaredSum {
         }
         let sum = SymmetricRows::shifted(matrix, diagonal)?;
         let largest = (0..sum.size()).map(|i| sum.diagonal(i)).fold(0.0, f64::max);
-        Ok(Self { multigrid: Multigrid::from_rows(sum)?, tolerance, largest, between: None })
+        Ok(Self { multigrid: Multigrid::from_rows(sum, watch)?, tolerance, largest, between: None })
     }
 
     /// Another tolerance for both solves.
@@ -73,12 +79,12 @@ impl Preconditioner for SquaredSum {
         self.multigrid.size()
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         // The factor keeps numbers within range where D is tiny or huge, and changes nothing else.
-        let mut half = self.multigrid.solve(self.scaled(r), self.tolerance, MOST_INNER)?;
+        let mut half = self.multigrid.solve(self.scaled(r), self.tolerance, MOST_INNER, watch)?;
         if let Some(between) = &self.between {
             half.iter_mut().zip(between).for_each(|(h, w)| *h *= w);
         }
-        self.multigrid.solve(self.scaled(&half), self.tolerance, MOST_INNER)
+        self.multigrid.solve(self.scaled(&half), self.tolerance, MOST_INNER, watch)
     }
 }

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use core::f64::consts::PI;
 
-use morse_smooth::field::{Bands, bands, evenly_spaced_levels};
+use morse_smooth::field::Bands;
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{bands, evenly_spaced_levels};
 use crate::support::{
     book_of_three, edge_map, every_kind, jittered, mesh, noise, random_complex, random_surface, tied,
 };

@@ -1,6 +1,7 @@
 //! The factor of all four kinds against dense algebra and other solvers, its size, and that it is reproducible.
 
 use faer::linalg::solvers::Solve;
+use morse_smooth::Watch;
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::{MassScale, cotan_laplacian, galerkin_mass};
@@ -42,9 +43,12 @@ fn compare_with_dense<K: Kind>(matrix: &CscMatrix<f64>, share: f64, columns: &[u
     let most = columns.iter().copied().max().unwrap_or(1);
     let right = random_column::<K>(n * most, &mut Random::new(seed));
     let expected = full.lu().solve(&DMatrix::from_column_slice(n, most, &right)).expect("regular");
-    let factor = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap().factor::<K>(&values).expect("definite");
+    let factor = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none())
+        .unwrap()
+        .factor::<K>(&values, &Watch::none())
+        .expect("definite");
     let wrong = columns.iter().map(|&columns| {
-        let found = factor.solve(&right[..n * columns]).unwrap();
+        let found = factor.solve(&right[..n * columns], &Watch::none()).unwrap();
         distance::<K>(&found, &expected.as_slice()[..n * columns])
     });
     wrong.fold(0.0, f64::max)
@@ -72,7 +76,7 @@ fn random_gram(seed: u64, n: usize, per_row: usize) -> CscMatrix<f64> {
             coo.push(n + i, (random.uniform() * n as f64) as usize, random.signed());
         }
     }
-    gram(&CscMatrix::from(&coo)).unwrap()
+    gram(&CscMatrix::from(&coo), &Watch::none()).unwrap()
 }
 
 fn dense_pairs(range: core::ops::Range<usize>) -> Vec<(usize, usize, f64)> {
@@ -104,9 +108,9 @@ proptest! {
         for (new, &old) in order.iter().enumerate() {
             prop_assert_eq!(permutation.old_to_new()[old as usize] as usize, new);
         }
-        let analysis = CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &permutation).unwrap();
+        let analysis = CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &permutation, &Watch::none()).unwrap();
         let x = DVector::from_fn(n, |i, _| 1.0 + i as f64);
-        let found = analysis.factor::<f64>(matrix.values()).unwrap().solve((dense(&matrix) * &x).as_slice()).unwrap();
+        let found = analysis.factor::<f64>(matrix.values(), &Watch::none()).unwrap().solve((dense(&matrix) * &x).as_slice(), &Watch::none()).unwrap();
         prop_assert!((DVector::from_vec(found) - &x).abs().max() <= 1e-11 * n as f64);
     }
 
@@ -116,7 +120,7 @@ proptest! {
         let matrix = random_spd(seed, n, (density * n as f64) as usize);
         let mut shuffled: Vec<u32> = (0..n as u32).collect();
         shuffle(&mut shuffled, &mut Random::new(seed));
-        for order in [shuffled, (0..n as u32).collect(), nested_dissection(matrix.pattern())] {
+        for order in [shuffled, (0..n as u32).collect(), nested_dissection(matrix.pattern(), &Watch::none()).unwrap()] {
             check_size(matrix.pattern(), &order);
         }
     }
@@ -124,7 +128,7 @@ proptest! {
 
 fn check_size(pattern: &SparsityPattern, order: &[u32]) {
     let permutation = Permutation::new(order.to_vec()).unwrap();
-    let size = CholeskyAnalysis::with_permutation(pattern.clone(), &permutation).unwrap().size();
+    let size = CholeskyAnalysis::with_permutation(pattern.clone(), &permutation, &Watch::none()).unwrap().size();
     let counts = column_counts(pattern, order);
     assert_eq!(size.nonzeros, counts.iter().sum::<u64>());
     assert_eq!(size.flops, counts.iter().map(|count| count * count).sum::<u64>());
@@ -173,9 +177,12 @@ fn check_image<K: Kind>(name: &str, matrix: &CscMatrix<f64>) {
     let n = matrix.nrows();
     let x = random_column::<K>(n * 9, &mut random);
     let b: Vec<K::Wide> = x.chunks(n).flat_map(|x| product_of::<K>(matrix.pattern(), &values, x)).collect();
-    let factor = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap().factor::<K>(&values).unwrap();
-    let wrong = distance::<K>(&factor.solve(&b).unwrap(), &x);
-    let alone = distance::<K>(&factor.solve(&b[..n]).unwrap(), &x[..n]);
+    let factor = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none())
+        .unwrap()
+        .factor::<K>(&values, &Watch::none())
+        .unwrap();
+    let wrong = distance::<K>(&factor.solve(&b, &Watch::none()).unwrap(), &x);
+    let alone = distance::<K>(&factor.solve(&b[..n], &Watch::none()).unwrap(), &x[..n]);
     assert!(wrong.max(alone) <= K::ACCURACY, "{name}, {}: {wrong:e} {alone:e}", K::NAME);
 }
 
@@ -196,7 +203,7 @@ fn fronts_much_larger_than_panel_and_depth() {
 fn systems(mesh: &TriMesh) -> [(&'static str, CscMatrix<f64>); 3] {
     let laplacian = cotan_laplacian(mesh);
     let mass = galerkin_mass(mesh, MassScale::MeanOne).unwrap();
-    let square = gram(&laplacian).unwrap();
+    let square = gram(&laplacian, &Watch::none()).unwrap();
     [("screened", &laplacian + &mass * 0.1), ("ε = 1", &square + &mass), ("ε = 1e-2", &square + &mass * 1e-2)]
 }
 
@@ -222,8 +229,11 @@ fn other_sparse_solvers_give_the_same() {
                 matrix = &matrix + &CscMatrix::from(&coo);
             }
             let b = random_column::<f64>(n, &mut Random::new(1));
-            let ours = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap().factor::<f64>(matrix.values()).unwrap();
-            let ours = ours.solve(&b).unwrap();
+            let ours = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none())
+                .unwrap()
+                .factor::<f64>(matrix.values(), &Watch::none())
+                .unwrap();
+            let ours = ours.solve(&b, &Watch::none()).unwrap();
             let theirs = CscCholesky::factor(&matrix).unwrap().solve(&DMatrix::from_column_slice(n, 1, &b));
             let wrong = distance::<f64>(&ours, theirs.as_slice());
             assert!(wrong < 1e-9, "{mesh_name}, {name}, nalgebra-sparse: {wrong:e}");
@@ -249,7 +259,7 @@ fn check_memory<K: Kind>(name: &str, analysis: &CholeskyAnalysis) {
 fn memory_is_a_small_multiple_of_the_entries() {
     for (mesh_name, mesh) in oracle_meshes() {
         for (name, matrix) in systems(&mesh) {
-            let analysis = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap();
+            let analysis = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none()).unwrap();
             let name = format!("{mesh_name}, {name}");
             check_memory::<f64>(&name, &analysis);
             check_memory::<f32>(&name, &analysis);
@@ -263,8 +273,8 @@ fn memory_is_a_small_multiple_of_the_entries() {
 fn sizes_on_meshes_are_those_of_elimination() {
     for (_, mesh) in crate::support::every_kind() {
         let laplacian = cotan_laplacian(&mesh);
-        for pattern in [laplacian.pattern().clone(), gram(&laplacian).unwrap().pattern().clone()] {
-            check_size(&pattern, &nested_dissection(&pattern));
+        for pattern in [laplacian.pattern().clone(), gram(&laplacian, &Watch::none()).unwrap().pattern().clone()] {
+            check_size(&pattern, &nested_dissection(&pattern, &Watch::none()).unwrap());
         }
     }
 }
@@ -274,18 +284,21 @@ fn check_reproducible<K: Kind>(matrix: &CscMatrix<f64>) {
     let values = values_of::<K>(matrix, 0.4, 2);
     let other: Vec<K::Wide> = values.iter().map(|&v| v * K::entry(2.5, 0.0)).collect();
     let b = random_column::<K>(n * 17, &mut Random::new(6));
-    let analysis = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap();
-    let mut factor = analysis.factor::<K>(&values).unwrap();
-    let first = factor.solve(&b).unwrap();
+    let analysis = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none()).unwrap();
+    let mut factor = analysis.factor::<K>(&values, &Watch::none()).unwrap();
+    let first = factor.solve(&b, &Watch::none()).unwrap();
     // Nothing of another matrix is left behind, and neither the memory nor a new analysis matters.
-    factor.refactor(&other).unwrap();
-    factor.refactor(&values).unwrap();
-    assert_eq!(factor.solve(&b).unwrap(), first, "{}", K::NAME);
-    assert_eq!(factor.clone().solve(&b).unwrap(), first, "{}", K::NAME);
-    let again = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap().factor::<K>(&values).unwrap();
-    assert_eq!(again.solve(&b).unwrap(), first, "{}", K::NAME);
+    factor.refactor(&other, &Watch::none()).unwrap();
+    factor.refactor(&values, &Watch::none()).unwrap();
+    assert_eq!(factor.solve(&b, &Watch::none()).unwrap(), first, "{}", K::NAME);
+    assert_eq!(factor.clone().solve(&b, &Watch::none()).unwrap(), first, "{}", K::NAME);
+    let again = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none())
+        .unwrap()
+        .factor::<K>(&values, &Watch::none())
+        .unwrap();
+    assert_eq!(again.solve(&b, &Watch::none()).unwrap(), first, "{}", K::NAME);
     // Columns do not touch each other; only the order of summation differs.
-    let alone: Vec<K::Wide> = b.chunks(n).flat_map(|b| factor.solve(b).unwrap()).collect();
+    let alone: Vec<K::Wide> = b.chunks(n).flat_map(|b| factor.solve(b, &Watch::none()).unwrap()).collect();
     let wrong = distance::<K>(&alone, &first);
     assert!(wrong <= 0.1 * K::ACCURACY, "{}: {wrong:e}", K::NAME);
 }

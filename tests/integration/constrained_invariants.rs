@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use morse_smooth::field::{CriticalKind, DeltaOptions, Features, Threshold, critical_points};
+use morse_smooth::field::{CriticalKind, DeltaOptions, Features, Threshold};
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{LaplacianWeights, MassScale};
 use morse_smooth::smooth::{
@@ -11,6 +11,7 @@ use morse_smooth::smooth::{
 };
 use nalgebra::DVector;
 
+use crate::analyses::critical_points;
 use crate::dense_reference::{Reference, error, is_distinct, meshes, named, settings, smoother, sparse_set};
 use crate::support::{every_kind, link_components, links, noise, random_complex, random_surface, tied};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use morse_smooth::Error;
 use morse_smooth::error::SmoothError;
-use morse_smooth::field::{DeltaOptions, DeltaScale, Features, Threshold, feature_points, with_stars};
+use morse_smooth::field::{DeltaOptions, DeltaScale, Features, Threshold, with_stars};
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::LaplacianWeights;
 use morse_smooth::smooth::{
@@ -12,6 +12,7 @@ use morse_smooth::smooth::{
     SolverChoice, Unconstrained, constrained_vertices,
 };
 
+use crate::analyses::feature_points;
 use crate::dense_reference::{Reference, error, is_distinct, named, settings, smoother, together};
 use crate::support::{islands, mesh, noise};
 

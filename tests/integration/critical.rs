@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use morse_smooth::field::{
-    CriticalKind, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading, critical_points,
-};
+use morse_smooth::field::{CriticalKind, CriticalPoints, DeltaOptions, DeltaScale, ExtremumRule, LinkReading};
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::critical_points;
 use crate::support::{
     Link, edge_map, every_kind, link_components, links, mesh, noise, random_complex, random_surface, tied, walk_link,
 };

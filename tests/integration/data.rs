@@ -7,17 +7,19 @@ use std::time::Instant;
 
 use morse_smooth::Error;
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, critical_points,
-    delta_hierarchy, largest_edge_difference, persistence, simplify, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, value_range,
 };
-use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
-use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
+use morse_smooth::io::{FieldReadOptions, read_field};
+use morse_smooth::load::{LoadOptions, LoadedMesh, load};
+use morse_smooth::mesh::TriMesh;
 use morse_smooth::operators::MassScale;
 use morse_smooth::smooth::{
     Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Metric, Smoothed, Smoother, SmootherOptions,
     TikhonovOptions, Unconstrained, constrained_vertices, smoothness,
 };
 use serde_json::Value;
+
+use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference, persistence, simplify};
 
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("MORSE_SMOOTH_DATA")
@@ -117,7 +119,7 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
             check.equal(&format!("{context} {name}"), &Some(u64::from(number)), &split[name].as_u64());
         }
     }
-    let largest = largest_edge_difference(mesh.connectivity(), values);
+    let largest = largest_edge_difference(mesh, values);
     check.close(&format!("{context} max edge variation"), largest, number(&expected["maxEdgeVariation"]), 1e-15);
     let range = value_range(mesh.connectivity(), values).expect("a field");
     check.equal(&format!("{context} minimum"), &range.min, &number(&expected["range"][0]));
@@ -284,7 +286,7 @@ fn check_smoothing(
 
 fn read(folder: &Path, file: &str) -> LoadedMesh {
     let bytes = std::fs::read(folder.join(file)).expect("a file of the data folder");
-    load(&bytes, &ReadOptions::default(), false).expect("a mesh")
+    load(&bytes, &LoadOptions::default()).expect("a mesh")
 }
 
 /// A field of the mesh file, or the text file beside it.

@@ -1,5 +1,6 @@
 //! What the direct solver refuses, by name, and what it solves although it is nearly singular or badly scaled.
 
+use morse_smooth::Watch;
 use morse_smooth::error::SolveError;
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
@@ -17,7 +18,7 @@ use crate::support::{
 };
 
 fn analysis(matrix: &CscMatrix<f64>) -> CholeskyAnalysis {
-    CholeskyAnalysis::new(matrix.pattern().clone()).unwrap()
+    CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none()).unwrap()
 }
 
 fn real_values<K: Kind>(matrix: &CscMatrix<f64>) -> Vec<K::Wide> {
@@ -26,7 +27,7 @@ fn real_values<K: Kind>(matrix: &CscMatrix<f64>) -> Vec<K::Wide> {
 
 /// The column that a matrix is refused for.
 fn refused<K: Kind>(matrix: &CscMatrix<f64>) -> Option<usize> {
-    match analysis(matrix).factor::<K>(&real_values::<K>(matrix)) {
+    match analysis(matrix).factor::<K>(&real_values::<K>(matrix), &Watch::none()) {
         Err(SolveError::NotPositiveDefinite { column }) => Some(column),
         Err(other) => panic!("{other}"),
         Ok(_) => None,
@@ -139,7 +140,7 @@ fn without_empty_rows(matrix: &CscMatrix<f64>) -> CscMatrix<f64> {
 
 /// Where a singular matrix is accepted: its smallest pivot as a fraction of the diagonal.
 fn accepted_pivot<K: Kind>(analysis: &CholeskyAnalysis, matrix: &CscMatrix<f64>) -> Option<f64> {
-    let factor = match analysis.factor::<K>(&real_values::<K>(matrix)) {
+    let factor = match analysis.factor::<K>(&real_values::<K>(matrix), &Watch::none()) {
         Err(SolveError::NotPositiveDefinite { .. }) => return None,
         Err(other) => panic!("{other}"),
         Ok(factor) => factor,
@@ -149,7 +150,7 @@ fn accepted_pivot<K: Kind>(analysis: &CholeskyAnalysis, matrix: &CscMatrix<f64>)
     let places: Vec<usize> = (0..n).step_by(1 + n / 24).collect();
     let mut units = vec![K::Wide::default(); n * places.len()];
     places.iter().enumerate().for_each(|(k, &i)| units[k * n + i] = K::entry(1.0, 0.0));
-    let inverse = factor.solve(&units).unwrap();
+    let inverse = factor.solve(&units, &Watch::none()).unwrap();
     let pivots = places
         .iter()
         .enumerate()
@@ -164,7 +165,7 @@ fn accepted_singular_matrices() -> (usize, Vec<(String, f64, usize)>) {
     for (name, mesh) in closed_and_open_surfaces() {
         for (weights, laplacian) in [("uniform", uniform_laplacian(&mesh)), ("cotangent", cotan_laplacian(&mesh))] {
             let laplacian = without_empty_rows(&laplacian);
-            for (power, matrix) in [("L", laplacian.clone()), ("LᵀL", gram(&laplacian).unwrap())] {
+            for (power, matrix) in [("L", laplacian.clone()), ("LᵀL", gram(&laplacian, &Watch::none()).unwrap())] {
                 let analysis = analysis(&matrix);
                 for (kind, unit, pivot) in [
                     ("f64", f64::EPSILON, accepted_pivot::<f64>(&analysis, &matrix)),
@@ -224,14 +225,14 @@ fn errors<K: Kind>(pattern: &SparsityPattern, values: &[K::Wide], steps: usize) 
     let n = pattern.major_dim();
     let x = random_column::<K>(n, &mut Random::new(n as u64));
     let b = exact_product::<K>(pattern, values, &x);
-    let factor = CholeskyAnalysis::new(pattern.clone())?.factor::<K>(values)?;
+    let factor = CholeskyAnalysis::new(pattern.clone(), &Watch::none())?.factor::<K>(values, &Watch::none())?;
     let mut found = vec![K::Wide::default(); n];
     let mut errors = Vec::new();
     for _ in 0..=steps {
         let image = exact_product::<K>(pattern, values, &found);
         let residual: Vec<K::Wide> =
             b.iter().zip(&image).map(|(b, y)| K::entry((b[0] - y[0]).value(), (b[1] - y[1]).value())).collect();
-        let correction = factor.solve(&residual)?;
+        let correction = factor.solve(&residual, &Watch::none())?;
         found.iter_mut().zip(&correction).for_each(|(x, &d)| *x += d);
         errors.push(distance::<K>(&found, &x));
     }
@@ -261,7 +262,7 @@ fn nearly_singular_matrices_are_solved() {
     ] {
         let identity = CscMatrix::identity(mesh.vertex_count());
         for laplacian in [uniform_laplacian(&mesh), cotan_laplacian(&mesh)] {
-            let square = gram(&laplacian).unwrap();
+            let square = gram(&laplacian, &Watch::none()).unwrap();
             let systems = [
                 (&laplacian, 1e-4),
                 (&laplacian, 1e-7),
@@ -330,7 +331,7 @@ fn needles_with_huge_cotangents() {
         let identity = CscMatrix::identity(mesh.vertex_count());
         let screened = &laplacian + &identity;
         check_condition::<f64>(name, screened.pattern(), screened.values(), row_norm(&laplacian), f64::EPSILON);
-        let square = gram(&laplacian).unwrap();
+        let square = gram(&laplacian, &Watch::none()).unwrap();
         let condition = row_norm(&square);
         let square = &square + &identity;
         check_condition::<f64>(name, square.pattern(), square.values(), condition, f64::EPSILON);
@@ -357,14 +358,16 @@ fn check_scaling<K: Kind>(exponents: &[i32]) {
     for &exponent in exponents {
         let scale = 10_f64.powi(exponent);
         let values: Vec<K::Wide> = plain.iter().map(|&v| v * K::entry(scale, 0.0)).collect();
-        let factor = analysis.factor::<K>(&values).unwrap();
+        let factor = analysis.factor::<K>(&values, &Watch::none()).unwrap();
         for &other in exponents {
             // Columns of very different sizes side by side.
             let right_scales = [10_f64.powi(other), 1.0, 10_f64.powi(-other)];
             let scaled: Vec<K::Wide> =
                 x.chunks(n).zip(right_scales).flat_map(|(x, s)| x.iter().map(move |&x| x * K::entry(s, 0.0))).collect();
             let b: Vec<K::Wide> = scaled.chunks(n).flat_map(|x| product_of::<K>(matrix.pattern(), &plain, x)).collect();
-            for (found, (x, s)) in factor.solve(&b).unwrap().chunks(n).zip(scaled.chunks(n).zip(right_scales)) {
+            for (found, (x, s)) in
+                factor.solve(&b, &Watch::none()).unwrap().chunks(n).zip(scaled.chunks(n).zip(right_scales))
+            {
                 let back: Vec<K::Wide> = found.iter().map(|&x| x * K::entry(scale, 0.0) / K::entry(s, 0.0)).collect();
                 let x: Vec<K::Wide> = x.iter().map(|&x| x / K::entry(s, 0.0)).collect();
                 let wrong = distance::<K>(&back, &x);
@@ -405,7 +408,10 @@ fn check_small_entries<K: Kind>() {
         let mut x = random_column::<K>(160, &mut random);
         x.iter_mut().enumerate().filter(|(i, _)| !range.contains(i)).for_each(|(_, x)| *x = K::entry(0.0, 0.0));
         let b = product_of::<K>(matrix.pattern(), &values, &x);
-        let wrong = distance::<K>(&analysis(&matrix).factor::<K>(&values).unwrap().solve(&b).unwrap(), &x);
+        let wrong = distance::<K>(
+            &analysis(&matrix).factor::<K>(&values, &Watch::none()).unwrap().solve(&b, &Watch::none()).unwrap(),
+            &x,
+        );
         assert!(wrong <= K::ACCURACY, "{}: {wrong:e}", K::NAME);
     }
 }

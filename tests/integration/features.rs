@@ -2,13 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use morse_smooth::field::{
-    DeltaOptions, DeltaScale, ExtremumRule, Features, LinkReading, Threshold, critical_points, feature_points,
-    persistence, with_stars,
-};
+use morse_smooth::field::{DeltaOptions, DeltaScale, ExtremumRule, Features, LinkReading, Threshold, with_stars};
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::mesh::{LinkKind, TriMesh};
 
+use crate::analyses::{critical_points, feature_points, persistence};
 use crate::support::{complex, every_kind, islands, noise, random_complex, random_surface, shuffle, tied};
 
 fn points(mesh: &TriMesh, f: &[f64], features: &Features<'_>) -> Vec<u32> {

@@ -1,12 +1,10 @@
 //! The hierarchy over δ against `critical_points` at every δ where anything changes, just below it, and in between.
 
-use morse_smooth::field::{
-    CriticalKind, DeltaHierarchy, DeltaOptions, DeltaScale, LinkReading, critical_points, delta_hierarchy,
-    largest_edge_difference,
-};
+use morse_smooth::field::{CriticalKind, DeltaHierarchy, DeltaOptions, DeltaScale, LinkReading};
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference};
 use crate::support::{every_kind, mesh, noise, random_complex, random_surface, tied};
 
 const READINGS: [LinkReading; 2] = [LinkReading::Consecutive, LinkReading::Skip];
@@ -219,5 +217,5 @@ fn refusals() {
     assert_eq!(code(&f), "NonFiniteValue");
     (f[3], f[4]) = (1e308, -1e308);
     assert_eq!(code(&f), "RangeOverflow");
-    assert!(largest_edge_difference(grid.connectivity(), &[0.0; 16]) == 0.0);
+    assert!(largest_edge_difference(&grid, &[0.0; 16]) == 0.0);
 }

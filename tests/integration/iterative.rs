@@ -1,5 +1,6 @@
 //! Conjugate gradients and their preconditioners against dense algebra and a direct solver.
 
+use morse_smooth::Watch;
 use morse_smooth::error::SolveError;
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
@@ -51,7 +52,7 @@ fn solve(
     options: &CgOptions,
 ) -> (Vec<f64>, Result<CgInfo, SolveError>) {
     let mut x = vec![0.0; b.len()];
-    let info = conjugate_gradient(&mut |v| product(matrix, v), preconditioner, b, &mut x, options);
+    let info = conjugate_gradient(&mut |v| product(matrix, v), preconditioner, b, &mut x, options, &Watch::none());
     (x, info)
 }
 
@@ -59,7 +60,7 @@ fn preconditioners(matrix: &CscMatrix<f64>) -> Vec<(&'static str, Box<dyn Precon
     vec![
         ("Jacobi", Box::new(Jacobi::new(&diagonal(matrix)).unwrap())),
         ("incomplete Cholesky", Box::new(IncompleteCholesky::new(matrix).unwrap())),
-        ("multigrid", Box::new(Multigrid::new(matrix).unwrap())),
+        ("multigrid", Box::new(Multigrid::new(matrix, &Watch::none()).unwrap())),
     ]
 }
 
@@ -96,7 +97,8 @@ fn check_operator(preconditioner: &dyn Preconditioner, accuracy: f64, name: &str
         if seed == 3 {
             x.fill(1.0);
         }
-        let (mx, my) = (preconditioner.apply(&x).unwrap(), preconditioner.apply(&y).unwrap());
+        let (mx, my) =
+            (preconditioner.apply(&x, &Watch::none()).unwrap(), preconditioner.apply(&y, &Watch::none()).unwrap());
         let (first, second) = (dot(&x, &my), dot(&y, &mx));
         let size = (dot(&x, &mx) * dot(&y, &my)).sqrt();
         assert!(dot(&x, &mx) > 0.0 && dot(&y, &my) > 0.0, "{name} is positive");
@@ -189,7 +191,13 @@ fn matrices_of_special_shape() {
     let full: Vec<(usize, usize, f64)> = (0..200).flat_map(|i| (0..i).map(move |j| (i, j, -0.1))).collect();
     check(&dominant(200, &full), 1e-10, "full");
     let empty = CscMatrix::<f64>::zeros(0, 0);
-    assert_eq!(solve(&empty, &Multigrid::new(&empty).unwrap(), &[], &CgOptions::default()).1.unwrap().iterations, 0);
+    assert_eq!(
+        solve(&empty, &Multigrid::new(&empty, &Watch::none()).unwrap(), &[], &CgOptions::default())
+            .1
+            .unwrap()
+            .iterations,
+        0
+    );
 }
 
 #[test]
@@ -229,7 +237,7 @@ fn nearly_singular_laplacians() {
     let mass = lumped_mass_diagonal(&torus, MassScale::MeanOne).unwrap();
     for shift in [1e-5, 1e-10] {
         let matrix = screened(&cotan_laplacian(&torus), &mass, shift);
-        let multigrid = Multigrid::new(&matrix).unwrap();
+        let multigrid = Multigrid::new(&matrix, &Watch::none()).unwrap();
         check_operator(&multigrid, 1e-4, "nearly singular");
         // A right-hand side without the constants, for which the solution hardly feels the shift.
         let mut b = noise(mass.len(), 4);
@@ -274,14 +282,15 @@ fn incomplete_cholesky_is_complete_without_fill() {
         assert_eq!(incomplete.shift(), 0.0);
         let b = noise(100, 5);
         let expected = dense(&matrix).cholesky().unwrap().solve(&DVector::from_vec(b.clone()));
-        let found = DVector::from_vec(incomplete.apply(&b).unwrap());
+        let found = DVector::from_vec(incomplete.apply(&b, &Watch::none()).unwrap());
         assert!((found - &expected).norm() < 1e-13 * expected.norm());
     }
     // (G Gᵀ)_ij = a_ij on the pattern: M e_j differs from A e_j only where A has no entry.
     let matrix = random_spd(8, 40, 90);
     let incomplete = IncompleteCholesky::new(&matrix).unwrap();
     let unit = |j: usize| (0..40).map(|i| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
-    let columns: Vec<DVector<f64>> = (0..40).map(|j| DVector::from_vec(incomplete.apply(&unit(j)).unwrap())).collect();
+    let columns: Vec<DVector<f64>> =
+        (0..40).map(|j| DVector::from_vec(incomplete.apply(&unit(j), &Watch::none()).unwrap())).collect();
     let product = DMatrix::from_columns(&columns).try_inverse().unwrap();
     for (i, j, value) in matrix.triplet_iter() {
         assert!((product[(i, j)] - value).abs() < 1e-11, "({i}, {j})");
@@ -303,7 +312,7 @@ fn incomplete_cholesky_shifts_where_it_breaks_down() {
 fn iterations_of_multigrid_hardly_grow() {
     let count = |matrix: &CscMatrix<f64>| {
         let options = CgOptions { tolerance: 1e-10, ..CgOptions::default() };
-        let multigrid = Multigrid::new(matrix).unwrap();
+        let multigrid = Multigrid::new(matrix, &Watch::none()).unwrap();
         assert!(multigrid.complexity() < 1.8, "{}", multigrid.complexity());
         solve(matrix, &multigrid, &noise(matrix.nrows(), 2), &options).1.unwrap().iterations
     };
@@ -329,7 +338,7 @@ fn squared_sums_take_few_iterations() {
     for epsilon in [1e3_f64, 1.0, 1e-3, 1e-6, 1e-8] {
         for identity in [true, false] {
             let root: Vec<f64> = lumped.iter().map(|m| (epsilon * if identity { 1.0 } else { *m }).sqrt()).collect();
-            let squared = SquaredSum::new(&laplacian, &root, SquaredSum::TOLERANCE).unwrap();
+            let squared = SquaredSum::new(&laplacian, &root, SquaredSum::TOLERANCE, &Watch::none()).unwrap();
             let mut apply = |x: &[f64]| -> Vec<f64> {
                 let smooth = product(&laplacian, &product(&laplacian, x));
                 let mass = if identity { x.to_vec() } else { transposed_product(&galerkin, x) };
@@ -337,23 +346,25 @@ fn squared_sums_take_few_iterations() {
             };
             let (b, mut x) = (noise(n, 7), vec![0.0; n]);
             let options = CgOptions { tolerance: 1e-6, ..CgOptions::default() };
-            let info = conjugate_gradient(&mut apply, &squared, &b, &mut x, &options).unwrap();
+            let info = conjugate_gradient(&mut apply, &squared, &b, &mut x, &options, &Watch::none()).unwrap();
             assert!(info.iterations <= 20, "ε = {epsilon:e}, identity {identity}: {}", info.iterations);
         }
     }
     // With an exact inner solution it is what it says.
     let root = vec![0.3; n];
-    let squared = SquaredSum::new(&laplacian, &root, 1e-12).unwrap();
+    let squared = SquaredSum::new(&laplacian, &root, 1e-12, &Watch::none()).unwrap();
     let sum = screened(&laplacian, &root, 1.0);
     let x = noise(n, 8);
     let mut image = product(&sum, &product(&sum, &x));
     let largest = diagonal(&sum).into_iter().fold(0.0, f64::max);
     image.iter_mut().for_each(|v| *v /= largest * largest);
-    let found = squared.apply(&image).unwrap();
+    let found = squared.apply(&image, &Watch::none()).unwrap();
     let difference: Vec<f64> = found.iter().zip(&x).map(|(a, b)| a - b).collect();
     assert!(norm(&difference) < 1e-8 * norm(&x), "{:e}", norm(&difference));
     check_operator(&squared, 1e-8, "squared sum");
-    let code = |diagonal: &[f64]| SquaredSum::new(&laplacian, diagonal, 0.1).map(|_| ()).map_err(|error| error.code());
+    let code = |diagonal: &[f64]| {
+        SquaredSum::new(&laplacian, diagonal, 0.1, &Watch::none()).map(|_| ()).map_err(|error| error.code())
+    };
     assert_eq!(code(&[1.0]), Err("DimensionMismatch"));
     assert_eq!(code(&vec![f64::NAN; n]), Err("NonFiniteEntry"));
     assert_eq!(code(&vec![-100.0; n]), Err("NotPositiveDefinite"));
@@ -368,7 +379,7 @@ fn hopeless(matrix: &CscMatrix<f64>, preconditioner: &dyn Preconditioner, b: &[f
         product(matrix, v)
     };
     let options = CgOptions { patience: 300, ..CgOptions::default() };
-    let error = conjugate_gradient(apply, preconditioner, b, &mut x, &options).expect_err("hopeless");
+    let error = conjugate_gradient(apply, preconditioner, b, &mut x, &options, &Watch::none()).expect_err("hopeless");
     (products, error)
 }
 
@@ -381,7 +392,7 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
     if let Ok(incomplete) = IncompleteCholesky::new(&laplacian) {
         all.push(("incomplete Cholesky", Box::new(incomplete)));
     }
-    if let Ok(multigrid) = Multigrid::new(&laplacian) {
+    if let Ok(multigrid) = Multigrid::new(&laplacian, &Watch::none()) {
         all.push(("multigrid", Box::new(multigrid)));
     }
     for (which, preconditioner) in all {
@@ -395,7 +406,7 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
     for (which, made) in [
         ("Jacobi", Jacobi::new(&diagonal(&shifted)).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
         ("incomplete Cholesky", IncompleteCholesky::new(&shifted).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
-        ("multigrid", Multigrid::new(&shifted).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
+        ("multigrid", Multigrid::new(&shifted, &Watch::none()).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
     ] {
         let error = match made {
             Ok(preconditioner) => {
@@ -415,7 +426,7 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
         let named = Some(SolveError::NotPositiveDefinite { column: 17 });
         assert_eq!(Jacobi::new(&diagonal(&shifted)).err(), named);
         assert_eq!(IncompleteCholesky::new(&shifted).err(), named);
-        assert_eq!(Multigrid::new(&shifted).err(), named);
+        assert_eq!(Multigrid::new(&shifted, &Watch::none()).err(), named);
     }
 }
 
@@ -427,7 +438,7 @@ impl Preconditioner for Turned {
         self.0
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         Ok(r.iter().map(|r| -r).collect())
     }
 }
@@ -442,7 +453,7 @@ fn conjugate_gradients_refuse_by_name() {
     let b = vec![1.0; n];
     let mut x = vec![0.0; n];
     let few = CgOptions { max_iterations: 3, ..CgOptions::default() };
-    match conjugate_gradient(&mut apply, &jacobi, &b, &mut x, &few) {
+    match conjugate_gradient(&mut apply, &jacobi, &b, &mut x, &few, &Watch::none()) {
         Err(SolveError::NotConverged { iterations: 3, residual }) => {
             let actual = (&hilbert * DVector::from_vec(x.clone()) - DVector::from_vec(b.clone())).norm() / norm(&b);
             assert!((residual / actual - 1.0).abs() < 1e-9, "{residual:e} {actual:e}");
@@ -450,7 +461,9 @@ fn conjugate_gradients_refuse_by_name() {
         other => panic!("{other:?}"),
     }
     let mut refused = |preconditioner: &dyn Preconditioner, b: &[f64], x: &mut [f64]| {
-        conjugate_gradient(&mut apply, preconditioner, b, x, &CgOptions::default()).map(|_| ()).map_err(|e| e.code())
+        conjugate_gradient(&mut apply, preconditioner, b, x, &CgOptions::default(), &Watch::none())
+            .map(|_| ())
+            .map_err(|e| e.code())
     };
     assert_eq!(refused(&Jacobi::new(&[1.0; 29]).unwrap(), &b, &mut x), Err("DimensionMismatch"));
     assert_eq!(refused(&jacobi, &b, &mut [0.0; 31]), Err("DimensionMismatch"));
@@ -463,7 +476,7 @@ fn conjugate_gradients_refuse_by_name() {
     let ones = Jacobi::new(&[1.0; 2]).unwrap();
     let options = CgOptions::default();
     let run = |apply: &mut dyn FnMut(&[f64]) -> Vec<f64>| {
-        conjugate_gradient(apply, &ones, &[0.0, 1.0], &mut [0.0; 2], &options)
+        conjugate_gradient(apply, &ones, &[0.0, 1.0], &mut [0.0; 2], &options, &Watch::none())
     };
     assert_eq!(run(&mut |v| vec![v[0], -v[1]]), Err(SolveError::NotPositiveDefinite { column: 1 }));
     assert_eq!(run(&mut |v| vec![v[0], v[1] * f64::NAN]), Err(SolveError::NonFiniteEntry { row: 1 }));
@@ -473,7 +486,7 @@ fn conjugate_gradients_refuse_by_name() {
 #[test]
 fn preconditioners_refuse_by_name() {
     let codes = |matrix: &CscMatrix<f64>| {
-        let codes = [IncompleteCholesky::new(matrix).err(), Multigrid::new(matrix).err()];
+        let codes = [IncompleteCholesky::new(matrix).err(), Multigrid::new(matrix, &Watch::none()).err()];
         assert_eq!(codes[0], codes[1]);
         codes[0].clone()
     };
@@ -506,13 +519,17 @@ fn sizes_at_the_ends_of_double_precision() {
         let mut apply = |v: &[f64]| vec![2.0 * v[0] + v[1], v[0] + 2.0 * v[1]];
         let b = [3.0 * size, 3.0 * size];
         let jacobi = Jacobi::new(&[2.0; 2]).unwrap();
-        conjugate_gradient(&mut apply, &jacobi, &b, &mut x, &CgOptions::default()).unwrap();
+        conjugate_gradient(&mut apply, &jacobi, &b, &mut x, &CgOptions::default(), &Watch::none()).unwrap();
         assert!(x.iter().all(|v| (v / size - 1.0).abs() < 1e-10), "{x:?} at {size:e}");
     }
     for size in [1e-200, 1e200] {
         let mut matrix = interior(&shapes::torus(20, 15, 0.3).unwrap(), 2);
-        let expected =
-            solve(&matrix, &Multigrid::new(&matrix).unwrap(), &noise(matrix.nrows(), 1), &CgOptions::default());
+        let expected = solve(
+            &matrix,
+            &Multigrid::new(&matrix, &Watch::none()).unwrap(),
+            &noise(matrix.nrows(), 1),
+            &CgOptions::default(),
+        );
         matrix.values_mut().iter_mut().for_each(|v| *v *= size);
         for (which, preconditioner) in preconditioners(&matrix) {
             let b: Vec<f64> = noise(matrix.nrows(), 1).iter().map(|b| b * size).collect();

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use core::f64::consts::PI;
 
-use morse_smooth::field::{LevelSets, evenly_spaced_levels, level_sets};
+use morse_smooth::field::LevelSets;
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{evenly_spaced_levels, level_sets};
 use crate::support::{
     book_of_three, edge_map, every_kind, jittered, mesh, noise, random_complex, random_surface, tied,
 };

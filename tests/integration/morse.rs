@@ -2,13 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use morse_smooth::field::{
-    CriticalKind, DeltaOptions, Keep, MorseComplex, PathStyle, Threshold, basins, critical_points, morse_complex,
-    morse_hierarchy, persistence, simplify, value_range,
-};
+use morse_smooth::field::{CriticalKind, DeltaOptions, Keep, MorseComplex, PathStyle, Threshold, value_range};
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{basins, critical_points, morse_complex, morse_hierarchy, persistence, simplify};
 use crate::support::{
     complex as complex_of, every_kind, islands, link_components, links, noise, random_complex, random_surface, tied,
 };

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use morse_smooth::field::{CriticalKind, DeltaOptions, PersistenceDiagram, critical_points, persistence};
+use morse_smooth::field::{CriticalKind, DeltaOptions, PersistenceDiagram};
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{critical_points, persistence};
 use crate::support::{edge_map, every_kind, islands, mesh, noise, random_complex, random_surface, tied};
 
 /// What the textbook says: every simplex in the order of its highest vertex, one column of the boundary matrix each, reduced

@@ -1,8 +1,9 @@
 //! Levels just below and just above saddles: how the lines change there.
 
-use morse_smooth::field::{CriticalKind, DeltaOptions, critical_points, level_sets, saddle_levels};
+use morse_smooth::field::{CriticalKind, DeltaOptions};
 use morse_smooth::mesh::{TriMesh, shapes};
 
+use crate::analyses::{critical_points, level_sets, saddle_levels};
 use crate::support::{every_kind, mesh, noise, tied};
 
 fn lines(mesh: &TriMesh, f: &[f64], level: f64) -> usize {

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use morse_smooth::field::{
-    CriticalKind, DeltaOptions, Keep, Threshold, critical_points, persistence, simplify, value_range,
-};
+use morse_smooth::field::{CriticalKind, DeltaOptions, Keep, Threshold, value_range};
 use morse_smooth::mesh::{TriMesh, shapes};
 use proptest::prelude::*;
 
+use crate::analyses::{critical_points, persistence, simplify};
 use crate::support::{bow_tie, every_kind, islands, noise, random_surface, shuffle, tied, two_tetrahedra_at_a_vertex};
 
 fn extrema(mesh: &TriMesh, values: &[f64]) -> BTreeSet<(u32, CriticalKind)> {

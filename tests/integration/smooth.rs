@@ -1,6 +1,6 @@
 //! Tikhonov smoothing against dense algebra with 32 digits, and the invariants of the equations.
 
-use morse_smooth::field::{DeltaOptions, critical_points};
+use morse_smooth::field::DeltaOptions;
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{LaplacianWeights, MassScale};
 use morse_smooth::smooth::{
@@ -8,6 +8,7 @@ use morse_smooth::smooth::{
 };
 use nalgebra::{DMatrix, DVector};
 
+use crate::analyses::critical_points;
 use crate::exact;
 use crate::operators::{ALL_WEIGHTS, reference_laplacian, reference_mass};
 use crate::support::{

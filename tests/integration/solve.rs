@@ -1,5 +1,6 @@
 //! The linear solvers against dense algebra.
 
+use morse_smooth::Watch;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::uniform_laplacian;
 use morse_smooth::solve::{
@@ -22,7 +23,7 @@ fn played_out(matrix: &CscMatrix<f64>, order: &[u32]) -> u64 {
 }
 
 fn check_order(matrix: &CscMatrix<f64>) -> Vec<u32> {
-    let order = minimum_degree(matrix.pattern());
+    let order = minimum_degree(matrix.pattern(), &Watch::none()).unwrap();
     let mut sorted = order.clone();
     sorted.sort_unstable();
     assert!(sorted.iter().copied().eq(0..matrix.nrows() as u32), "a permutation");
@@ -34,14 +35,14 @@ fn check_solver(matrix: &CscMatrix<f64>, seed: u64, columns: usize) {
     let mut random = Random::new(seed);
     let right: Vec<f64> = (0..n * columns).map(|_| random.signed()).collect();
     let expected = dense(matrix).cholesky().expect("definite").solve(&DMatrix::from_column_slice(n, columns, &right));
-    let analysis = CholeskyAnalysis::new(matrix.pattern().clone()).unwrap();
-    let found = analysis.factor::<f64>(matrix.values()).unwrap().solve(&right).unwrap();
+    let analysis = CholeskyAnalysis::new(matrix.pattern().clone(), &Watch::none()).unwrap();
+    let found = analysis.factor::<f64>(matrix.values(), &Watch::none()).unwrap().solve(&right, &Watch::none()).unwrap();
     let difference = (DMatrix::from_column_slice(n, columns, &found) - &expected).abs().max();
     assert!(difference <= 1e-12 * expected.abs().max(), "{difference:e}");
     assert_eq!(analysis.unknowns(), n);
     let order = check_order(matrix);
     let permutation = Permutation::new(order.clone()).unwrap();
-    let analysis = CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &permutation).unwrap();
+    let analysis = CholeskyAnalysis::with_permutation(matrix.pattern().clone(), &permutation, &Watch::none()).unwrap();
     assert_eq!(analysis.size().nonzeros, played_out(matrix, &order));
 }
 
@@ -62,7 +63,7 @@ proptest! {
         let close = |a: Vec<f64>, b: DVector<f64>| (DVector::from_vec(a) - b).abs().max() < 1e-14;
         prop_assert!(close(product(&sparse, x.as_slice()), &full * &x));
         prop_assert!(close(transposed_product(&sparse, y.as_slice()), full.transpose() * &y));
-        prop_assert!((dense(&gram(&sparse).unwrap()) - full.transpose() * &full).abs().max() < 1e-14);
+        prop_assert!((dense(&gram(&sparse, &Watch::none()).unwrap()) - full.transpose() * &full).abs().max() < 1e-14);
         let square = &full * full.transpose();
         let form = quadratic_form(&CscMatrix::from(&square), y.as_slice());
         prop_assert!((form - (&square * &y).dot(&y)).abs() < 1e-13);
@@ -87,7 +88,7 @@ fn matrices_of_special_shape() {
     check_solver(&star(40), 6, 2);
     // Past the threshold for dense rows the hub is put off to the end, and the factor has no fill at all.
     let large = star(300);
-    let analysis = CholeskyAnalysis::new(large.pattern().clone()).unwrap();
+    let analysis = CholeskyAnalysis::new(large.pattern().clone(), &Watch::none()).unwrap();
     assert_eq!(analysis.size().nonzeros, 599);
     assert_eq!(played_out(&large, &check_order(&large)), 599);
     // Two hubs that are linked, and a path beside them.
@@ -106,7 +107,7 @@ fn minimum_degree_saves_fill() {
     // On grids about what the exact minimum degree gives, and far less than the natural order's band.
     for side in [12, 20] {
         let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap());
-        for matrix in [laplacian.clone(), gram(&laplacian).unwrap()] {
+        for matrix in [laplacian.clone(), gram(&laplacian, &Watch::none()).unwrap()] {
             let natural: Vec<u32> = (0..side * side).collect();
             let natural = played_out(&matrix, &natural);
             let exact = played_out(&matrix, &exact_minimum_degree(&matrix));

@@ -18,16 +18,18 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-it('shows twelve lines of JavaScript that run', () => {
+it('shows ten lines of JavaScript that run', () => {
   const example = read('examples', 'smooth.mjs');
-  const blocks = [...read('README.md').matchAll(/^```js\n([^]*?)^```/gm)].map((match) => match[1]);
-  expect(blocks[0]).toBe(example);
-  // The rest are parts of others.
+  const blocksOf = (...page) => [...read(...page).matchAll(/^```js\n([^]*?)^```/gm)].map((match) => match[1]);
+  expect(blocksOf('README.md')).toEqual([example]);
+  // The other pages show parts of other examples.
   const others = read('examples', 'constraints.mjs') + read('examples', 'sheet.mjs');
-  for (const block of blocks.slice(1)) expect(others).toContain(block);
-  expect(example.trimEnd().split('\n')).toHaveLength(12);
+  const blocks = ['methods', 'pictures', 'files', 'loading'].flatMap((page) => blocksOf('docs', `${page}.md`));
+  expect(blocks.length).toBeGreaterThan(1);
+  for (const block of blocks) expect(others).toContain(block);
+  expect(example.trimEnd().split('\n')).toHaveLength(10);
 
-  expect(run('smooth.mjs')).toMatch(/^minima 571 → 2, maxima 574 → 1\n/);
+  expect(run('smooth.mjs')).toMatch(/^minima 571 → 2, maxima 574 → 1, of \d+\n/);
 });
 
 it('simplifies a torus with noise to that of the textbook', () => {

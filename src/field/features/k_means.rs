@@ -2,9 +2,8 @@
 
 use super::line::Line;
 use super::seeding::seeded;
-use crate::error::FieldError;
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
-use crate::mesh::Connectivity;
 use crate::support::random::Random;
 
 /// So many bounds may be moved in all: Lloyd's iterations can be as many as the square of the clusters, and the last ones move
@@ -14,19 +13,14 @@ const MOST_MOVES: usize = 2_000_000;
 const FEWEST_MOST_ITERATIONS: usize = 20;
 
 /// For each cluster of the values the vertex whose value is nearest to its mean, and of several the one with the smallest id.
-pub(super) fn representatives(
-    connectivity: &Connectivity,
-    values: &[f64],
-    clusters: usize,
-    seed: u64,
-) -> Result<Vec<u32>, FieldError> {
-    let line = Line::new(connectivity, values)?;
+pub(super) fn representatives(field: &ScalarField<'_>, clusters: usize, seed: u64) -> Vec<u32> {
+    let (line, values) = (Line::new(field), field.values());
     let ids = line.ids();
     // Ids of equal values ascend, so the first of each value has the smallest.
     let is_first = |i: usize| i == 0 || values[ids[i - 1] as usize] != values[ids[i] as usize];
     let different = (0..ids.len()).filter(|&i| is_first(i)).count();
     if clusters >= different {
-        return Ok((0..ids.len()).filter(|&i| is_first(i)).map(|i| ids[i]).collect());
+        return (0..ids.len()).filter(|&i| is_first(i)).map(|i| ids[i]).collect();
     }
     let mut bounds = seeded(&line, clusters, &mut Random::new(seed));
     for _ in 0..(MOST_MOVES / clusters).max(FEWEST_MOST_ITERATIONS) {
@@ -42,7 +36,7 @@ pub(super) fn representatives(
         }
         bounds = next;
     }
-    Ok(bounds.windows(2).map(|ends| nearest_to_mean(&line, ends[0], ends[1])).collect())
+    bounds.windows(2).map(|ends| nearest_to_mean(&line, ends[0], ends[1])).collect()
 }
 
 /// Where clusters begin, and where the last one ends, after each value went to the nearest mean, the lower one of two. Clusters

@@ -1,9 +1,8 @@
 //! Values on a line, with the sums that k-means needs of any interval.
 
-use crate::error::FieldError;
-use crate::field::order::value_range;
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort_by_value;
-use crate::mesh::{Connectivity, LinkKind};
+use crate::mesh::LinkKind;
 
 /// The values of the vertices that belong to a triangle, by ascending (value, id), as integers: (f − min) 2^e, rounded down.
 ///
@@ -19,9 +18,9 @@ pub(super) struct Line {
 }
 
 impl Line {
-    pub(super) fn new(connectivity: &Connectivity, values: &[f64]) -> Result<Self, FieldError> {
-        let range = value_range(connectivity, values)?;
-        let kinds = connectivity.link_kinds();
+    pub(super) fn new(field: &ScalarField<'_>) -> Self {
+        let (values, range) = (field.values(), field.range());
+        let kinds = field.mesh().connectivity().link_kinds();
         let mut ids: Vec<u32> = (0..values.len() as u32).filter(|&v| kinds[v as usize] != LinkKind::Isolated).collect();
         sort_by_value(&mut ids, values);
         let bits = (127 - (usize::BITS - ids.len().leading_zeros()) as i32) / 2;
@@ -46,7 +45,7 @@ impl Line {
             this.squares.push(square);
         }
         this.ids = ids;
-        Ok(this)
+        this
     }
 
     pub(super) fn len(&self) -> usize {

@@ -4,11 +4,13 @@ mod k_means;
 mod line;
 mod seeding;
 
-use crate::error::{Error, FieldError, OptionError};
+use crate::error::{FieldError, OptionError, Result};
 use crate::field::critical::{DeltaOptions, critical_points};
-use crate::field::order::{Threshold, VertexOrder};
+use crate::field::order::Threshold;
 use crate::field::persistence::persistence;
-use crate::mesh::{Connectivity, TriMesh};
+use crate::field::scalar_field::ScalarField;
+use crate::mesh::Connectivity;
+use crate::support::watch::Watch;
 
 /// Where feature points come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +32,7 @@ pub enum Features<'a> {
     },
 }
 
-/// Chooses vertices by a rule.
+/// Chooses vertices of one field, or of several on the same mesh, by a rule.
 ///
 /// # Definition
 /// See [`Features`]. Clusters are those of k-means in one dimension. Over the vertices that belong to a triangle, Σ (f_i − mean of
@@ -39,7 +41,7 @@ pub enum Features<'a> {
 /// the cluster that gains most; so is, where Lloyd's iterations end, the bound that is worth least, as long as the sum decreases.
 ///
 /// # Properties
-/// Ascending, each vertex once; empty where a rule finds nothing, as at a large δ. Isolated vertices are features only where they
+/// Ascending, each vertex once; of several fields those that the rule chooses in any of them. Empty where a rule finds nothing, as at a large δ. Isolated vertices are features only where they
 /// are named.
 ///
 /// Clusters are found in integers: sums are exact whatever the range and however far from zero it lies. For them, values nearer
@@ -49,38 +51,51 @@ pub enum Features<'a> {
 /// nearest mean.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `IndexOutOfBounds` for a named vertex that does not exist; `InvalidOption`
+/// `LengthMismatch` for fields on meshes of different sizes; `IndexOutOfBounds` for a named vertex that does not exist; `InvalidOption`
 /// where δ or the threshold is negative or not finite, and for 0 clusters.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
+/// let height = [field::ScalarField::new(&torus, &height)?];
 /// let essential = field::Features::Persistence(field::Threshold::Relative(0.1));
-/// assert_eq!(field::feature_points(&torus, &height, &essential)?.len(), 4);
+/// assert_eq!(field::feature_points(&height, &essential, &Watch::none())?.len(), 4);
 /// let spread = field::Features::KMeans { clusters: 7, seed: 1 };
-/// assert_eq!(field::feature_points(&torus, &height, &spread)?.len(), 7);
+/// assert_eq!(field::feature_points(&height, &spread, &Watch::none())?.len(), 7);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn feature_points(mesh: &TriMesh, values: &[f64], features: &Features<'_>) -> Result<Vec<u32>, Error> {
-    let n = mesh.vertex_count();
-    VertexOrder::new(values, n)?;
-    let mut chosen = vec![false; n];
-    let mut choose = |vertex: u32| chosen[vertex as usize] = true;
+pub fn feature_points(fields: &[ScalarField<'_>], features: &Features<'_>, watch: &Watch<'_>) -> Result<Vec<u32>> {
+    let expected = fields.first().map_or(0, |field| field.whole_mesh().vertex_count());
+    let mut chosen = vec![false; expected];
+    for field in fields {
+        let actual = field.whole_mesh().vertex_count();
+        if actual != expected {
+            return Err(FieldError::LengthMismatch { expected, actual }.into());
+        }
+        choose_in(field, features, &mut |vertex| chosen[vertex as usize] = true, watch)?;
+    }
+    Ok(ascending(&chosen))
+}
+
+fn choose_in(
+    field: &ScalarField<'_>,
+    features: &Features<'_>,
+    choose: &mut dyn FnMut(u32),
+    watch: &Watch<'_>,
+) -> Result<()> {
     match *features {
         Features::Vertices(vertices) => {
-            if let Some(&index) = vertices.iter().find(|&&v| v as usize >= n) {
-                return Err(FieldError::IndexOutOfBounds { index, vertices: n }.into());
-            }
+            field.to_part(vertices)?;
             vertices.iter().for_each(|&v| choose(v));
         }
         Features::CriticalPoints(options) => {
-            critical_points(mesh, values, &options)?.points.iter().for_each(|point| choose(point.vertex));
+            critical_points(field, &options, watch)?.points.iter().for_each(|point| choose(point.vertex));
         }
         Features::Persistence(threshold) => {
-            let bound = threshold.absolute(mesh, values, "threshold")?;
-            let diagram = persistence(mesh, values)?;
+            let bound = threshold.absolute(field.range(), "threshold")?;
+            let diagram = persistence(field, watch)?;
             for pair in diagram.pairs.iter().take_while(|pair| pair.persistence > bound) {
                 choose(pair.extremum);
                 choose(pair.saddle);
@@ -94,10 +109,10 @@ pub fn feature_points(mesh: &TriMesh, values: &[f64], features: &Features<'_>) -
             return Err(OptionError::InvalidOption { option: "clusters".to_owned(), expected }.into());
         }
         Features::KMeans { clusters, seed } => {
-            k_means::representatives(mesh.connectivity(), values, clusters, seed)?.iter().for_each(|&v| choose(v));
+            k_means::representatives(field, clusters, seed).iter().for_each(|&v| choose(v));
         }
     }
-    Ok(ascending(&chosen))
+    Ok(())
 }
 
 /// The vertices and their neighbours: I = C ∪ N(C) of \[Patane09, section 4.3\]. Ascending, each once.

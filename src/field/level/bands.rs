@@ -2,9 +2,10 @@
 
 use super::level_set::{check_levels, room};
 use super::saddle_levels::distinct;
-use crate::error::{Error, FieldError};
-use crate::field::order::VertexOrder;
+use crate::error::{FieldError, Result};
+use crate::field::scalar_field::ScalarField;
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::watch::Watch;
 
 /// A mesh cut along level sets: every triangle lies in one band. Band k holds what is at least `levels[k − 1]` and less than
 /// `levels[k]`.
@@ -41,21 +42,22 @@ pub struct Bands {
 /// Points in the units of the positions, levels in those of the values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels;
+/// `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels;
 /// `OutOfMemory` where the result does not fit.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let square = shapes::grid(5, 5)?;
 /// let x: Vec<f64> = square.positions().chunks_exact(3).map(|p| p[0]).collect();
-/// let bands = field::bands(&square, &x, &[0.3, 0.6])?;
+/// let bands = field::bands(&field::ScalarField::new(&square, &x)?, &[0.3, 0.6], &Watch::none())?;
 /// assert!(bands.bands.iter().all(|&band| band <= 2));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn bands(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Bands, Error> {
-    VertexOrder::new(values, mesh.vertex_count())?;
+pub fn bands(field: &ScalarField<'_>, levels: &[f64], watch: &Watch<'_>) -> Result<Bands> {
+    let (mesh, values) = (field.mesh(), field.values());
     check_levels(levels)?;
+    watch.tick(50 * values.len() as u64)?;
     let mut cutter = Cutter::new(mesh, values, distinct(levels))?;
     for t in 0..mesh.triangle_count() {
         cutter.cut(t);

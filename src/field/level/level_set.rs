@@ -2,10 +2,11 @@
 
 use core::ops::Range;
 
-use crate::error::{Error, FieldError, OptionError};
-use crate::field::order::{VertexOrder, value_range};
+use crate::error::{FieldError, OptionError, Result};
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort;
 use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
 
 /// More levels than anyone can tell apart; the bound keeps a slip from filling the memory.
 pub(super) const MOST_LEVELS: usize = 10_000;
@@ -30,13 +31,13 @@ pub struct LevelSets {
 /// `count` levels that cut the range of the values into equal parts, without its ends; none for a constant field.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `count` is above 10,000.
-pub fn evenly_spaced_levels(mesh: &TriMesh, values: &[f64], count: usize) -> Result<Vec<f64>, Error> {
+/// `InvalidOption` where `count` is above 10,000.
+pub fn evenly_spaced_levels(field: &ScalarField<'_>, count: usize) -> Result<Vec<f64>> {
     if count > MOST_LEVELS {
         let expected = format!("at most {MOST_LEVELS} levels");
         return Err(OptionError::InvalidOption { option: "count".to_owned(), expected }.into());
     }
-    let range = value_range(mesh.connectivity(), values)?;
+    let range = field.range();
     if range.length() <= 0.0 {
         return Ok(Vec::new());
     }
@@ -58,11 +59,12 @@ pub fn evenly_spaced_levels(mesh: &TriMesh, values: &[f64], count: usize) -> Res
 /// Points in the units of the positions, levels in those of the values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels;
+/// `NonFiniteLevel`; `InvalidOption` for more than 10,000 levels;
 /// `OutOfMemory` where the levels have more points than fit, as many levels of noise do.
-pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<LevelSets, Error> {
-    VertexOrder::new(values, mesh.vertex_count())?;
+pub fn level_sets(field: &ScalarField<'_>, levels: &[f64], watch: &Watch<'_>) -> Result<LevelSets> {
+    let (mesh, values) = (field.mesh(), field.values());
     check_levels(levels)?;
+    watch.tick(50 * values.len() as u64)?;
     let (sorted, order) = sort(levels);
     let extent = Extent::count(mesh, values, &sorted);
     let sets = extent.empty_sets()?;
@@ -75,7 +77,7 @@ pub fn level_sets(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Leve
     Ok(walk.sets)
 }
 
-pub(super) fn check_levels(levels: &[f64]) -> Result<(), Error> {
+pub(super) fn check_levels(levels: &[f64]) -> Result<()> {
     if let Some(index) = levels.iter().position(|level| !level.is_finite()) {
         return Err(FieldError::NonFiniteLevel { index }.into());
     }

@@ -1,11 +1,11 @@
 //! Levels just below and just above saddles, where level sets change their shape.
 
 use super::level_set::MOST_LEVELS;
-use crate::error::{Error, FieldError, OptionError};
+use crate::error::{OptionError, Result};
 use crate::field::critical::{CriticalKind, exact};
-use crate::field::order::{VertexOrder, value_range};
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort;
-use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
 
 /// Two levels for each value of a saddle, or of the given vertices: one just below and one just above.
 ///
@@ -19,37 +19,41 @@ use crate::mesh::TriMesh;
 /// By default every saddle of [`critical_points`](super::critical_points) at δ = 0 is taken.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `IndexOutOfBounds` for a vertex that does not exist; `InvalidOption` where
+/// `IndexOutOfBounds` for a vertex that does not exist; `InvalidOption` where
 /// `offset` is negative or not finite, and for more than 10,000 levels.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let levels = field::saddle_levels(&torus, &height, None, 0.0)?;
-/// let sets = field::level_sets(&torus, &height, &levels)?;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let levels = field::saddle_levels(&height, None, 0.0, &Watch::none())?;
+/// let sets = field::level_sets(&height, &levels, &Watch::none())?;
 /// // One circle below the lower saddle, two between the two, one above the upper one.
 /// let lines = levels.iter().map(|level| sets.levels.iter().filter(|&at| at == level).count());
 /// assert_eq!(lines.collect::<Vec<_>>(), [1, 2, 2, 1]);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn saddle_levels(mesh: &TriMesh, values: &[f64], vertices: Option<&[u32]>, offset: f64) -> Result<Vec<f64>, Error> {
-    let connectivity = mesh.connectivity();
-    let range = value_range(connectivity, values)?;
+pub fn saddle_levels(
+    field: &ScalarField<'_>,
+    vertices: Option<&[u32]>,
+    offset: f64,
+    watch: &Watch<'_>,
+) -> Result<Vec<f64>> {
+    let (values, range) = (field.values(), field.range());
     if !(offset.is_finite() && offset >= 0.0) {
         let expected = "a finite number that is not negative".to_owned();
         return Err(OptionError::InvalidOption { option: "offset".to_owned(), expected }.into());
     }
     let at: Vec<f64> = match vertices {
         Some(vertices) => {
-            if let Some(&index) = vertices.iter().find(|&&v| v as usize >= values.len()) {
-                return Err(FieldError::IndexOutOfBounds { index, vertices: values.len() }.into());
-            }
+            let vertices = field.to_part(vertices)?;
             vertices.iter().map(|&v| values[v as usize]).collect()
         }
         None => {
-            let found = exact(connectivity, VertexOrder::new(values, values.len())?);
+            watch.tick(30 * values.len() as u64)?;
+            let found = exact(field.mesh().connectivity(), field.order());
             let saddles = found.points.iter().filter(|p| p.kind == CriticalKind::Saddle);
             saddles.map(|p| values[p.vertex as usize]).collect()
         }

@@ -1,17 +1,13 @@
-//! Cancels pairs of the Morse complex in order of persistence.
+//! The Morse complex at every threshold: its pairs cancelled in order of persistence.
 
 use super::NONE;
-use super::flow::{Crossing, Flow};
-use super::units::Units;
-use crate::error::Error;
+use super::cancellations::Cancellations;
+use crate::error::Result;
 use crate::field::critical::CriticalKind;
-use crate::field::direction::Sweep;
-use crate::field::merging::Merging;
-use crate::field::order::{Threshold, VertexOrder};
-use crate::field::sorting::{ascending_bits, sort_by_key};
-use crate::field::steepest::{Steepest, ends};
-use crate::mesh::{LinkKind, TriMesh};
-use crate::support::union_find::UnionFind;
+use crate::field::scalar_field::ScalarField;
+use crate::field::steepest::ends;
+use crate::mesh::LinkKind;
+use crate::support::watch::Watch;
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +16,7 @@ pub struct MorseNode {
     pub vertex: u32,
     /// Its kind.
     pub kind: CriticalKind,
-    /// The persistence of the pair that it is cancelled with, in the units of the values; infinite where it never is.
+    /// The persistence of the pair that it is cancelled with, in the simple_saddles of the values; infinite where it never is.
     pub cancelled_at: f64,
     /// The node that it is cancelled with; itself where it never is.
     pub partner: u32,
@@ -62,138 +58,6 @@ impl MorseHierarchy {
     }
 }
 
-/// For every vertex the extrema that it belongs to; `u32::MAX` for vertices of no triangle.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Basins {
-    /// The minimum at which the path downwards ends.
-    pub descending: Vec<u32>,
-    /// The maximum at which the path upwards ends.
-    pub ascending: Vec<u32>,
-}
-
-/// An extremum and a simple saddle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cancellation {
-    pub(super) extremum: u32,
-    pub(super) unit: u32,
-    pub(super) upwards: bool,
-    pub(super) persistence: f64,
-    /// The extremum that takes over.
-    pub(super) into: u32,
-    /// First vertices of the saddle's paths to the extremum and to the one that takes over.
-    here: u32,
-    beyond: u32,
-}
-
-/// All that thresholds have in common.
-pub(super) struct Cancellations {
-    pub(super) steepest: Steepest,
-    pub(super) units: Units,
-    /// For every vertex the minimum and the maximum it flows to; nothing where nothing is cancelled.
-    pub(super) ends: [Vec<u32>; 2],
-    /// By ascending persistence.
-    list: Vec<Cancellation>,
-    /// In how many pairs each simple saddle is: at a boundary it may be in one of each direction.
-    pairs: Vec<u8>,
-}
-
-impl Cancellations {
-    /// Pairs of persistence above `limit` are left out, and all of them where it is 0.
-    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, limit: f64) -> Self {
-        let steepest = Steepest::by_slope(mesh, order);
-        let units = Units::new(mesh, order);
-        let ends = if limit > 0.0 { [ends(&steepest.down), ends(&steepest.up)] } else { [Vec::new(), Vec::new()] };
-        let (mut found, mut pairs) = (Vec::new(), vec![0_u8; units.len()]);
-        for upwards in [false, true].into_iter().filter(|_| limit > 0.0) {
-            let sweep = if upwards { Sweep::downwards(order) } else { Sweep::upwards(order) };
-            let mut merging = Merging::new(sweep, ends[usize::from(upwards)].clone());
-            let paths = if upwards { &units.up } else { &units.down };
-            for i in 0..units.len() {
-                let unit = units.ascending[if upwards { units.len() - 1 - i } else { i }];
-                let [a, b] = paths[unit as usize];
-                if a == NONE || b == NONE {
-                    continue;
-                }
-                let Some(merged) = merging.join(a, b) else { continue };
-                let (extremum, saddle) = (merged.ended, units.vertices[unit as usize]);
-                let persistence = (order.values()[extremum as usize] - order.values()[saddle as usize]).abs();
-                pairs[unit as usize] += 1;
-                if persistence <= limit {
-                    found.push(Cancellation { extremum, unit, upwards, persistence, into: NONE, here: a, beyond: b });
-                }
-            }
-        }
-        // Among equals the one that a sweep met first comes first: what it joined has to be one already.
-        let mut sorted: Vec<u32> = (0..found.len() as u32).collect();
-        sort_by_key(&mut sorted, &|i| ascending_bits(found[i as usize].persistence));
-        let mut this = Self { steepest, units, ends, list: sorted.iter().map(|&i| found[i as usize]).collect(), pairs };
-        this.find_successors();
-        this
-    }
-
-    /// In order of persistence, the arcs of a cancelled extremum go over to the one on the other side of its saddle.
-    fn find_successors(&mut self) {
-        let mut joined = self.ends.each_ref().map(|ends| UnionFind::new(ends.clone()));
-        for cancellation in &mut self.list {
-            let joined = &mut joined[usize::from(cancellation.upwards)];
-            let Cancellation { here, beyond, extremum, .. } = *cancellation;
-            let (a, b) = (joined.find(here), joined.find(beyond));
-            if a == extremum {
-                cancellation.into = b;
-            } else {
-                (cancellation.here, cancellation.beyond, cancellation.into) = (beyond, here, a);
-            }
-            joined.link(extremum, cancellation.into);
-        }
-    }
-
-    /// The flows down and up once all of the list up to a threshold is cancelled.
-    pub(super) fn flows(&self, threshold: f64) -> [Flow<'_>; 2] {
-        let crossings = [false, true].map(|side| {
-            let of_side = self.up_to(threshold).iter().filter(|cancellation| cancellation.upwards == side);
-            of_side.map(|c| Crossing { unit: c.unit, extremum: c.extremum, sides: [c.here, c.beyond] }).collect()
-        });
-        let [down, up]: [Vec<Crossing>; 2] = crossings;
-        [
-            Flow::new(&self.steepest.down, &self.ends[0], &self.units.vertices, &down),
-            Flow::new(&self.steepest.up, &self.ends[1], &self.units.vertices, &up),
-        ]
-    }
-
-    /// For every vertex that is an extremum, down and up, the one that has taken its place at a threshold.
-    pub(super) fn extrema(&self, threshold: f64) -> [Vec<u32>; 2] {
-        let mut extrema = [(); 2].map(|()| (0..self.ends[0].len() as u32).collect::<Vec<u32>>());
-        let cancelled = self.up_to(threshold);
-        // The one that takes over is cancelled later, if at all.
-        for cancellation in cancelled.iter().rev() {
-            let extrema = &mut extrema[usize::from(cancellation.upwards)];
-            extrema[cancellation.extremum as usize] = extrema[cancellation.into as usize];
-        }
-        extrema
-    }
-
-    /// The simple saddles that are left at a threshold: one that is in two pairs goes with the second.
-    pub(super) fn alive(&self, threshold: f64) -> Vec<bool> {
-        let mut pairs = self.pairs.clone();
-        let mut alive = vec![true; self.units.len()];
-        for cancellation in self.up_to(threshold) {
-            let left = &mut pairs[cancellation.unit as usize];
-            *left -= 1;
-            alive[cancellation.unit as usize] = *left > 0;
-        }
-        alive
-    }
-
-    fn up_to(&self, threshold: f64) -> &[Cancellation] {
-        let end = if threshold > 0.0 {
-            self.list.partition_point(|cancellation| cancellation.persistence <= threshold)
-        } else {
-            0
-        };
-        &self.list[..end]
-    }
-}
-
 /// Cancels the pairs of the Morse complex one after the other, the least persistent first \[Edelsbrunner03\].
 ///
 /// # Definition
@@ -207,9 +71,10 @@ impl Cancellations {
 /// [`MorseHierarchy::successors`], [`MorseHierarchy::arcs_at`].
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
+/// `Cancelled`.
+pub fn morse_hierarchy(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<MorseHierarchy> {
+    let (mesh, values, order) = (field.mesh(), field.values(), field.order());
+    watch.tick(200 * values.len() as u64)?;
     let all = Cancellations::new(mesh, order, f64::INFINITY);
     let mut nodes = Vec::new();
     let mut node_of = [(); 2].map(|()| vec![NONE; values.len()]);
@@ -230,11 +95,13 @@ pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy,
         }
     }
     let saddles = nodes.len();
-    nodes.extend(all.units.vertices.iter().enumerate().map(|(i, &v)| node(v, CriticalKind::Saddle, saddles + i)));
+    nodes.extend(
+        all.simple_saddles.vertices.iter().enumerate().map(|(i, &v)| node(v, CriticalKind::Saddle, saddles + i)),
+    );
     for cancellation in &all.list {
         let of_side = &node_of[usize::from(cancellation.upwards)];
         let extremum = of_side[cancellation.extremum as usize];
-        let saddle = saddles as u32 + cancellation.unit;
+        let saddle = saddles as u32 + cancellation.simple;
         let gone = &mut nodes[extremum as usize];
         (gone.cancelled_at, gone.partner) = (cancellation.persistence, saddle);
         gone.into = of_side[cancellation.into as usize];
@@ -242,39 +109,13 @@ pub fn morse_hierarchy(mesh: &TriMesh, values: &[f64]) -> Result<MorseHierarchy,
         (gone.cancelled_at, gone.partner) = (cancellation.persistence, extremum);
     }
     let mut arcs = Vec::new();
-    for unit in 0..all.units.len() {
-        for (side, paths) in [all.units.down[unit], all.units.up[unit]].into_iter().enumerate() {
+    for simple in 0..all.simple_saddles.len() {
+        for (side, paths) in [all.simple_saddles.down[simple], all.simple_saddles.up[simple]].into_iter().enumerate() {
             for first in paths.into_iter().filter(|&first| first != NONE) {
                 let extremum = all.ends[side][first as usize];
-                arcs.push([(saddles + unit) as u32, node_of[side][extremum as usize]]);
+                arcs.push([(saddles + simple) as u32, node_of[side][extremum as usize]]);
             }
         }
     }
     Ok(MorseHierarchy { nodes, arcs })
-}
-
-/// The regions that flow to each extremum, once pairs of persistence up to a threshold are cancelled; none are at 0.
-///
-/// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where the threshold is negative or not finite.
-pub fn basins(mesh: &TriMesh, values: &[f64], persistence: Threshold) -> Result<Basins, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = persistence.absolute(mesh, values, "persistence")?;
-    let kinds = mesh.connectivity().link_kinds();
-    let [descending, ascending] = if threshold > 0.0 {
-        let all = Cancellations::new(mesh, order, threshold);
-        let extrema = all.extrema(threshold);
-        [0, 1].map(|side| all.ends[side].iter().map(|&end| extrema[side][end as usize]).collect())
-    } else {
-        let steepest = Steepest::by_slope(mesh, order);
-        [ends(&steepest.down), ends(&steepest.up)]
-    };
-    let connected = |labels: Vec<u32>| {
-        labels
-            .into_iter()
-            .zip(kinds)
-            .map(|(label, &kind)| if kind == LinkKind::Isolated { NONE } else { label })
-            .collect()
-    };
-    Ok(Basins { descending: connected(descending), ascending: connected(ascending) })
 }

@@ -1,11 +1,14 @@
 //! The Morse complex: which extrema steepest paths join to which saddles, and what is left of it when pairs are cancelled.
 
-mod flow;
+mod basins;
+mod cancellations;
 mod hierarchy;
+mod paths;
 mod separatrices;
-mod units;
+mod simple_saddles;
 
-pub use hierarchy::{Basins, MorseHierarchy, MorseNode, basins, morse_hierarchy};
+pub use basins::{Basins, basins};
+pub use hierarchy::{MorseHierarchy, MorseNode, morse_hierarchy};
 pub use separatrices::{MorseComplex, PathStyle, morse_complex};
 
 /// Where there is nothing to name.

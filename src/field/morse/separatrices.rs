@@ -1,12 +1,13 @@
 //! The arcs of the Morse complex as lines on the mesh.
 
 use super::NONE;
-use super::flow::Flow;
-use super::hierarchy::Cancellations;
-use crate::error::{Error, FieldError};
+use super::cancellations::Cancellations;
+use super::paths::Paths;
+use crate::error::{FieldError, Result};
 use crate::field::critical::CriticalKind;
-use crate::field::order::{Threshold, VertexOrder};
-use crate::mesh::TriMesh;
+use crate::field::order::Threshold;
+use crate::field::scalar_field::ScalarField;
+use crate::support::watch::Watch;
 
 /// How far the lines of a Morse complex are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -48,44 +49,46 @@ pub struct MorseComplex {
 /// nothing is cancelled. Paths of the same direction that meet go on together.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` where `persistence` is negative or not finite;
+/// `InvalidOption` where `persistence` is negative or not finite;
 /// `OutOfMemory` where whole lines have more points than fit.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let complex = field::morse_complex(&torus, &height, field::Threshold::default(), field::PathStyle::Whole)?;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let nothing = field::Threshold::default();
+/// let complex = field::morse_complex(&height, nothing, field::PathStyle::Whole, &Watch::none())?;
 /// assert_eq!(complex.saddles.len(), 8);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn morse_complex(
-    mesh: &TriMesh,
-    values: &[f64],
+    field: &ScalarField<'_>,
     persistence: Threshold,
     style: PathStyle,
-) -> Result<MorseComplex, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
-    let threshold = persistence.absolute(mesh, values, "persistence")?;
-    let cancelled = Cancellations::new(mesh, order, threshold);
+    watch: &Watch<'_>,
+) -> Result<MorseComplex> {
+    let threshold = persistence.absolute(field.range(), "persistence")?;
+    watch.tick(200 * field.values().len() as u64)?;
+    let cancelled = Cancellations::new(field.mesh(), field.order(), threshold);
     let alive = cancelled.alive(threshold);
-    let flows = cancelled.flows(threshold);
+    let all_paths = cancelled.paths(threshold);
     let mut complex = MorseComplex::default();
-    let units = &cancelled.units;
+    let simple_saddles = &cancelled.simple_saddles;
     let mut starts = [Vec::new(), Vec::new()];
-    let mut unit = 0;
-    while unit < units.len() {
+    let mut simple = 0;
+    while simple < simple_saddles.len() {
         // Simple saddles of one vertex share paths, and paths that come back over it may become the same.
-        let vertex = units.vertices[unit];
+        let vertex = simple_saddles.vertices[simple];
         let mut begins = [Vec::new(), Vec::new()];
-        while unit < units.len() && units.vertices[unit] == vertex {
-            for (side, paths) in [units.down[unit], units.up[unit]].into_iter().enumerate() {
-                for first in paths.into_iter().filter(|&first| alive[unit] && first != NONE) {
-                    begins[side].push(flows[side].beginning(vertex, first));
+        while simple < simple_saddles.len() && simple_saddles.vertices[simple] == vertex {
+            for (side, paths) in [simple_saddles.down[simple], simple_saddles.up[simple]].into_iter().enumerate() {
+                for first in paths.into_iter().filter(|&first| alive[simple] && first != NONE) {
+                    begins[side].push(all_paths[side].beginning(vertex, first));
                 }
             }
-            unit += 1;
+            simple += 1;
         }
         for (starts, begins) in starts.iter_mut().zip(&mut begins) {
             begins.sort_unstable();
@@ -93,15 +96,15 @@ pub fn morse_complex(
             starts.extend(begins.iter().map(|&begin| (vertex, begin)));
         }
     }
-    complex.reserve(&starts, &flows, style)?;
+    complex.reserve(&starts, &all_paths, style)?;
     complex.offsets.push(0);
     for (side, kind) in [CriticalKind::Minimum, CriticalKind::Maximum].into_iter().enumerate() {
-        let flow = &flows[side];
+        let paths = &all_paths[side];
         let merged = style == PathStyle::Merged;
-        let mut passed = vec![false; if merged { flow.len() } else { 0 }];
-        let ends = if merged { flow.ends() } else { Vec::new() };
+        let mut passed = vec![false; if merged { paths.len() } else { 0 }];
+        let ends = if merged { paths.ends() } else { Vec::new() };
         for &(saddle, begin) in &starts[side] {
-            let last = complex.trace(flow, saddle, begin, &mut passed);
+            let last = complex.trace(paths, saddle, begin, &mut passed);
             complex.saddles.push(saddle);
             complex.extrema.push(if merged { ends[begin as usize] } else { last });
             complex.kinds.push(kind);
@@ -115,17 +118,17 @@ impl MorseComplex {
     fn reserve(
         &mut self,
         starts: &[Vec<(u32, u32)>; 2],
-        flows: &[Flow<'_>; 2],
+        all_paths: &[Paths<'_>; 2],
         style: PathStyle,
     ) -> Result<(), FieldError> {
         let lines = starts[0].len() + starts[1].len();
         let points: u64 = match style {
-            PathStyle::Merged => (flows[0].len() + flows[1].len() + 2 * lines) as u64,
+            PathStyle::Merged => (all_paths[0].len() + all_paths[1].len() + 2 * lines) as u64,
             PathStyle::Whole => starts
                 .iter()
-                .zip(flows)
-                .map(|(starts, flow)| {
-                    let lengths = flow.lengths();
+                .zip(all_paths)
+                .map(|(starts, paths)| {
+                    let lengths = paths.lengths();
                     starts.iter().map(|&(_, first)| 1 + u64::from(lengths[first as usize])).sum::<u64>()
                 })
                 .sum(),
@@ -140,15 +143,15 @@ impl MorseComplex {
     }
 
     /// Adds a line and returns its last vertex.
-    fn trace(&mut self, flow: &Flow<'_>, saddle: u32, begin: u32, passed: &mut [bool]) -> u32 {
+    fn trace(&mut self, paths: &Paths<'_>, saddle: u32, begin: u32, passed: &mut [bool]) -> u32 {
         self.vertices.push(saddle);
-        if !passed.is_empty() && flow.next(saddle) == Some(begin) {
+        if !passed.is_empty() && paths.next(saddle) == Some(begin) {
             passed[saddle as usize] = true;
         }
         let (mut vertex, mut at) = (saddle, begin);
         let last = loop {
             // Over a cancelled saddle a path may come to one vertex twice in a row.
-            let next_vertex = flow.vertex(at);
+            let next_vertex = paths.vertex(at);
             if next_vertex != vertex {
                 vertex = next_vertex;
                 self.vertices.push(vertex);
@@ -156,12 +159,12 @@ impl MorseComplex {
             if !passed.is_empty() && core::mem::replace(&mut passed[at as usize], true) {
                 break at;
             }
-            match flow.next(at) {
+            match paths.next(at) {
                 Some(next) => at = next,
                 None => break at,
             }
         };
         self.offsets.push(self.vertices.len() as u32);
-        flow.vertex(last)
+        paths.vertex(last)
     }
 }

@@ -4,15 +4,16 @@ mod loops;
 
 use loops::essential_saddles;
 
-use crate::error::Error;
+use crate::error::Result;
 use crate::field::critical::CriticalKind;
-use crate::field::direction::Sweep;
 use crate::field::merging::Merging;
-use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
+use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::Steepest;
-use crate::mesh::{LinkKind, TriMesh};
+use crate::field::sweep::Sweep;
+use crate::mesh::LinkKind;
+use crate::support::watch::Watch;
 
 /// An extremum and the saddle at which its component of the sublevel or superlevel set joins that of an older one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,19 +110,20 @@ impl PersistenceCurve {
 /// Those of the values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+/// `Cancelled`.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let diagram = field::persistence(&torus, &height)?;
+/// let diagram = field::persistence(&field::ScalarField::new(&torus, &height)?, &Watch::none())?;
 /// assert_eq!((diagram.pairs.len(), diagram.essential_saddles.len()), (0, 2));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn persistence(mesh: &TriMesh, values: &[f64]) -> Result<PersistenceDiagram, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
+pub fn persistence(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<PersistenceDiagram> {
+    let (mesh, values, order) = (field.mesh(), field.values(), field.order());
+    watch.tick(100 * values.len() as u64)?;
     let saddles = Saddles::new(mesh, order);
     let ascending = saddles.ascending(values);
     let steepest = Steepest::by_value(mesh.connectivity(), order);

@@ -1,11 +1,11 @@
 //! Raises basins without a wanted minimum up to where they overflow, or cuts hills without a wanted maximum down to there.
 
 use crate::error::FieldError;
-use crate::field::direction::Sweep;
 use crate::field::merging::{Merged, Merging};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::field::steepest::{Steepest, ends};
+use crate::field::sweep::Sweep;
 use crate::mesh::{LinkKind, TriMesh};
 
 /// What a field becomes when only the `wanted` minima are to stay (sweeping upwards), or only the wanted maxima.

@@ -8,13 +8,15 @@ use flats::{Role, Surroundings, ordered};
 use flooding::{Mergers, flood};
 use tilt::tilted;
 
-use crate::error::{Error, FieldError};
-use crate::field::critical::{CriticalKind, DeltaOptions, critical_points};
-use crate::field::direction::Sweep;
+use crate::error::{Error, FieldError, Result};
+use crate::field::critical::{CriticalKind, exact};
 use crate::field::order::{Threshold, VertexOrder};
 use crate::field::saddles::Saddles;
+use crate::field::scalar_field::ScalarField;
 use crate::field::steepest::Steepest;
+use crate::field::sweep::Sweep;
 use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
 
 /// The extrema that [`simplify`] leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +25,15 @@ pub enum Keep<'a> {
     Above(Threshold),
     /// These minima and maxima, at least one of each in every component.
     Extrema(&'a [u32]),
+}
+
+/// A field with fewer extrema.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Simplified {
+    /// One value for each vertex.
+    pub values: Vec<f64>,
+    /// Extrema that were to go, but that no field on this mesh can do without. Ascending.
+    pub unavoidable: Vec<u32>,
 }
 
 /// Computes a field that has no other extrema than the wanted ones.
@@ -43,37 +54,39 @@ pub enum Keep<'a> {
 /// Those of the values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for a threshold that is negative or not finite;
+/// `InvalidOption` for a threshold that is negative or not finite;
 /// `RangeOverflow` where the tilt leaves the range of doubles; `IndexOutOfBounds`, `NotAnExtremum` for what is to be kept, `Unconstrained` where a component keeps no minimum or no
 /// maximum; `UnavoidableExtremum` where the mesh hangs together in a single vertex and has no such field.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let bumps = |v: usize| 0.1 * (v % 7) as f64;
 /// let bumpy: Vec<f64> = torus.positions().chunks_exact(3).enumerate().map(|(v, p)| p[0] + 0.1 * p[2] + bumps(v)).collect();
 /// let keep = field::Keep::Above(field::Threshold::Absolute(0.6));
-/// let simple = field::simplify(&torus, &bumpy, keep)?;
-/// let counts = field::critical_points(&torus, &simple, &field::DeltaOptions::default())?.counts;
+/// let simple = field::simplify(&field::ScalarField::new(&torus, &bumpy)?, keep, &Watch::none())?;
+/// let simple = field::ScalarField::new(&torus, &simple.values)?;
+/// let counts = field::critical_points(&simple, &field::DeltaOptions::default(), &Watch::none())?.counts;
 /// assert_eq!((counts.minima, counts.maxima, counts.saddles), (1, 1, 2));
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f64>, Error> {
-    let order = VertexOrder::new(values, mesh.vertex_count())?;
+pub fn simplify(field: &ScalarField<'_>, keep: Keep<'_>, watch: &Watch<'_>) -> Result<Simplified> {
+    let (mesh, values, order) = (field.mesh(), field.values(), field.order());
+    watch.tick(200 * values.len() as u64)?;
     let (roles, bound, filled) = match keep {
         Keep::Above(threshold) => {
-            let bound = threshold.absolute(mesh, values, "threshold")?;
+            let bound = threshold.absolute(field.range(), "threshold")?;
             let (roles, filled) = persistent(mesh, order, bound)?;
             (roles, bound, filled)
         }
         Keep::Extrema(vertices) => {
-            let roles = named(mesh, values, vertices)?;
+            let roles = named(mesh, order, vertices)?;
             let filled = flood(mesh, order, false, having(&roles, Role::Minimum))?;
             (roles, f64::INFINITY, filled)
         }
     };
-    let between = VertexOrder::new(&filled, filled.len())?;
+    let between = VertexOrder::of_checked(&filled);
     let levels = flood(mesh, between, true, having(&roles, Role::Maximum))?;
     drop(filled);
     let around = Surroundings::new(mesh.connectivity(), &levels, &roles);
@@ -83,7 +96,7 @@ pub fn simplify(mesh: &TriMesh, values: &[f64], keep: Keep<'_>) -> Result<Vec<f6
         return Err(FieldError::RangeOverflow {}.into());
     }
     check(mesh, &simple, &roles)?;
-    Ok(simple)
+    Ok(Simplified { values: simple, unavoidable: Vec::new() })
 }
 
 fn having(roles: &[Role], wanted: Role) -> Vec<bool> {
@@ -115,9 +128,10 @@ fn persistent(mesh: &TriMesh, order: VertexOrder<'_>, bound: f64) -> Result<(Vec
 }
 
 /// Roles of extrema that the caller names.
-fn named(mesh: &TriMesh, values: &[f64], vertices: &[u32]) -> Result<Vec<Role>, Error> {
+fn named(mesh: &TriMesh, order: VertexOrder<'_>, vertices: &[u32]) -> Result<Vec<Role>, Error> {
+    let values = order.values();
     let mut extrema = vec![Role::Ordinary; values.len()];
-    for point in critical_points(mesh, values, &DeltaOptions::default())?.points {
+    for point in exact(mesh.connectivity(), order).points {
         extrema[point.vertex as usize] = role_of(point.kind);
     }
     let mut roles = vec![Role::Ordinary; values.len()];
@@ -142,7 +156,7 @@ fn role_of(kind: CriticalKind) -> Role {
 /// Never assumed: the extrema of the result are the wanted ones.
 fn check(mesh: &TriMesh, simple: &[f64], roles: &[Role]) -> Result<(), Error> {
     let mut missing = roles.to_vec();
-    for point in critical_points(mesh, simple, &DeltaOptions::default())?.points {
+    for point in exact(mesh.connectivity(), VertexOrder::of_checked(simple)).points {
         let (vertex, role) = (point.vertex, role_of(point.kind));
         if role != Role::Ordinary && core::mem::replace(&mut missing[vertex as usize], Role::Ordinary) != role {
             return Err(FieldError::UnavoidableExtremum { vertex }.into());

@@ -11,6 +11,7 @@ use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
 use super::{Answer, Task};
+use crate::Watch;
 use crate::error::SolveError;
 use crate::smooth::{Phase, Precision, Progress};
 use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
@@ -26,7 +27,7 @@ type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 impl ComplexRoute {
     pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
         let pattern = task.problem.matrix.pattern().clone();
-        let analysis = CholeskyAnalysis::new(pattern)?;
+        let analysis = CholeskyAnalysis::new(pattern, &Watch::none())?;
         Ok(Self { factors: Factors::new(analysis) })
     }
 
@@ -120,7 +121,7 @@ impl Preconditioner for Product<'_> {
         self.size
     }
 
-    fn apply(&self, r: &[f64]) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         let r: Vec<Complex<f64>> = r.iter().map(|&r| Complex::new(r, 0.0)).collect();
         // (L − iD)⁻¹ y is the conjugate of (L + iD)⁻¹ applied to the conjugate of y.
         let conjugate: Vec<Complex<f64>> = self.factor.solve(&r)?.iter().map(|y| y.conj()).collect();

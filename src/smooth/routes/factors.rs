@@ -2,6 +2,7 @@
 
 use super::refine::Iterate;
 use super::{Answer, Key};
+use crate::Watch;
 use crate::error::SolveError;
 use crate::smooth::{Phase, Precision, Progress};
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
@@ -16,8 +17,8 @@ pub(super) enum Factor<D: Scalar, S: Scalar<Wide = D::Wide>> {
 impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
     pub(super) fn solve(&self, right_hand_sides: &[D::Wide]) -> Result<Vec<D::Wide>, SolveError> {
         match self {
-            Self::Double(factor) => factor.solve(right_hand_sides),
-            Self::Single(factor) => factor.solve(right_hand_sides),
+            Self::Double(factor) => factor.solve(right_hand_sides, &Watch::none()),
+            Self::Single(factor) => factor.solve(right_hand_sides, &Watch::none()),
         }
     }
 
@@ -58,19 +59,19 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         let values = values(&self.analysis);
         Ok(match (last, precision) {
             (Some((_, Factor::Double(mut factor))), Precision::Double) => {
-                factor.refactor(&values)?;
+                factor.refactor(&values, &Watch::none())?;
                 Factor::Double(factor)
             }
             (Some((_, Factor::Single(mut factor))), Precision::Single) => {
-                factor.refactor(&values)?;
+                factor.refactor(&values, &Watch::none())?;
                 Factor::Single(factor)
             }
             (other, _) => {
                 // Its memory is needed for the new one.
                 drop(other);
                 match precision {
-                    Precision::Double => Factor::Double(self.analysis.factor(&values)?),
-                    Precision::Single => Factor::Single(self.analysis.factor(&values)?),
+                    Precision::Double => Factor::Double(self.analysis.factor(&values, &Watch::none())?),
+                    Precision::Single => Factor::Single(self.analysis.factor(&values, &Watch::none())?),
                 }
             }
         })

@@ -3,6 +3,7 @@
 use super::eigenvalue::smallest_eigenvalue;
 use super::refine::{Iterate, Refinement, refine};
 use super::{Answer, Inner, Mass, Order, Task};
+use crate::Watch;
 use crate::error::SolveError;
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
 
@@ -40,7 +41,7 @@ fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
     const ROUTE: &str = "cgMultigrid";
     let inner = task.problem.inner?;
     if task.problem.order == Order::First {
-        let multigrid = Multigrid::new(inner.matrix).ok()?;
+        let multigrid = Multigrid::new(inner.matrix, &Watch::none()).ok()?;
         return Some(refined(task, &multigrid).map(|iterates| answer(task, &multigrid, iterates, ROUTE)));
     }
     let mut squared = squared_sum(task, inner).ok()?;
@@ -54,7 +55,7 @@ fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
 }
 
 fn squared_sum(task: &Task<'_>, inner: Inner<'_>) -> Result<SquaredSum, SolveError> {
-    let squared = SquaredSum::new(inner.matrix, &task.shift(), SquaredSum::TOLERANCE)?;
+    let squared = SquaredSum::new(inner.matrix, &task.shift(), SquaredSum::TOLERANCE, &Watch::none())?;
     Ok(match inner.weights {
         Some(weights) => squared.between(&weights.iter().map(|w| w.recip()).collect::<Vec<f64>>()),
         None => squared,
@@ -69,7 +70,7 @@ pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -
     let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
     smallest_eigenvalue(&task.problem, &mut |b| {
         let mut x = vec![0.0; b.len()];
-        match conjugate_gradient(&mut |x| task.problem.apply(x), preconditioner, b, &mut x, &options) {
+        match conjugate_gradient(&mut |x| task.problem.apply(x), preconditioner, b, &mut x, &options, &Watch::none()) {
             // Rough solutions only take more steps.
             Ok(_) | Err(SolveError::NotConverged { .. }) => Ok(x),
             Err(error) => Err(error),
@@ -105,7 +106,7 @@ fn refined_within(
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
             for ((b, x), iterations) in columns.zip(iterations) {
-                *iterations += match conjugate_gradient(&mut apply, preconditioner, b, x, &options) {
+                *iterations += match conjugate_gradient(&mut apply, preconditioner, b, x, &options, &Watch::none()) {
                     Ok(info) => info.iterations,
                     // What rounding leaves in the residual of small ε is rough, and A⁻¹ hardly feels it: whether the
                     // solution is one is seen by its corrections.

@@ -6,6 +6,7 @@ use super::eigenvalue::smallest_eigenvalue;
 use super::factors::Factors;
 use super::refine::{Refinement, refine};
 use super::{Answer, Mass, Order, Problem, Pull, Task};
+use crate::Watch;
 use crate::error::SolveError;
 use crate::smooth::{Phase, Precision, Progress};
 use crate::solve::{CholeskyAnalysis, gram};
@@ -23,16 +24,16 @@ impl RealRoute {
         let Problem { matrix, order, weights, .. } = task.problem;
         let system = match (order, weights) {
             (Order::First, _) => matrix.clone(),
-            (Order::Squared, None) => gram(matrix)?,
+            (Order::Squared, None) => gram(matrix, &Watch::none())?,
             (Order::Squared, Some(weights)) => {
                 let mut scaled = matrix.clone();
                 let (_, rows, values) = scaled.csc_data_mut();
                 rows.iter().zip(values).for_each(|(&row, value)| *value *= weights[row].sqrt());
-                gram(&scaled)?
+                gram(&scaled, &Watch::none())?
             }
         };
         let (pattern, values) = system.into_pattern_and_values();
-        let analysis = CholeskyAnalysis::new(pattern)?;
+        let analysis = CholeskyAnalysis::new(pattern, &Watch::none())?;
         Ok(Self { values, factors: Factors::new(analysis) })
     }
 

@@ -10,6 +10,8 @@ use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 use super::{NONE, filled};
+use crate::Watch;
+use crate::error::SolveError;
 
 /// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
 const LEAF: usize = 120;
@@ -28,8 +30,10 @@ const PASSES: usize = 2;
 /// Unknowns are gathered into clusters once. A separator begins as a small edge cut between clusters, found by levels, and is
 /// refined among the unknowns themselves. Where the unknowns are does not matter: cuts across the axes of a mesh were hardly
 /// ever smaller than those found from its graph.
-#[must_use]
-pub fn nested_dissection(pattern: &SparsityPattern) -> Vec<u32> {
+///
+/// # Errors
+/// `Cancelled`.
+pub fn nested_dissection(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -61,7 +65,7 @@ pub fn nested_dissection(pattern: &SparsityPattern) -> Vec<u32> {
         dissection.split(&mut order, &part);
     }
     order.extend_from_slice(&dense);
-    order
+    Ok(order)
 }
 
 /// Unknowns to order, contiguous in the order, and their clusters.

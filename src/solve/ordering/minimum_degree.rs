@@ -5,14 +5,18 @@ use nalgebra_sparse::pattern::SparsityPattern;
 use super::NONE;
 use super::graph::Graph;
 use super::queue::BucketQueue;
+use crate::Watch;
+use crate::error::SolveError;
 
 /// Approximate minimum degree on the quotient graph (\[Amestoy96\]): at every step the unknown whose elimination links the
 /// fewest others, up to overlaps, goes next. Unknowns that become indistinguishable are merged, eliminated ones that
 /// another covers are absorbed, and unknowns of very high degree are put last.
 ///
 /// The pattern must be square and symmetric; the diagonal does not matter.
-#[must_use]
-pub fn minimum_degree(pattern: &SparsityPattern) -> Vec<u32> {
+///
+/// # Errors
+/// `Cancelled`.
+pub fn minimum_degree(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
     let (graph, dense) = Graph::new(pattern);
     let mut order = order_graph(&graph);
     // The unknowns of very high degree have lost their edges; they go to the end.
@@ -22,7 +26,7 @@ pub fn minimum_degree(pattern: &SparsityPattern) -> Vec<u32> {
     }
     order.retain(|&v| !is_dense[v as usize]);
     order.extend_from_slice(&dense);
-    order
+    Ok(order)
 }
 
 /// The same for a compact graph.

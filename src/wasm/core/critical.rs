@@ -18,9 +18,7 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = criticalPoints)]
     pub fn critical_points(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let (reading, options) = read("", options, |record| (Reading::read(record), delta(record)))?;
-        let found = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::critical_points(field.mesh(), field.values(), &options)?)
-        })?;
+        let found = reading.of(self.mesh(), values, |field, watch| field::critical_points(field, &options, watch))?;
         let points = &found.points;
         let answer = Answer::new();
         answer.column("vertices", points.len(), &|k| points[k].vertex);
@@ -35,9 +33,7 @@ impl RawTriMesh {
     pub fn delta_hierarchy(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let (reading, link) =
             read("", options, |record| (Reading::read(record), record.choice("link").unwrap_or_default()))?;
-        let found = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::delta_hierarchy(field.mesh(), field.values(), link)?)
-        })?;
+        let found = reading.of(self.mesh(), values, |field, watch| field::delta_hierarchy(field, link, watch))?;
         let (points, curve) = (&found.points, &found.curve);
         let answer = Answer::new();
         answer.column("vertices", points.len(), &|k| points[k].vertex);

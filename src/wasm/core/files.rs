@@ -7,7 +7,7 @@ use super::mesh::RawTriMesh;
 use super::reports;
 use crate::error::{FieldError, OptionError};
 use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
-use crate::mesh;
+use crate::load::{LoadOptions, load};
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{bytes, floats};
 use crate::wasm::shared::error::Thrown;
@@ -26,11 +26,12 @@ fn format<T>(record: &Record, expected: &str, from_name: impl FnOnce(&str) -> Op
 /// Reads a mesh file into `{ mesh, fields, format, warnings }`.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
-    let (options, weld) = read("", options, |record| {
+    let options = read("", options, |record| {
         let format = format(record, MESH_FORMAT, MeshFormat::from_name);
-        (ReadOptions { format, file_name: record.text("fileName") }, record.boolean("weld").unwrap_or_default())
+        let read = ReadOptions { format, file_name: record.text("fileName") };
+        LoadOptions { read, weld: record.boolean("weld").unwrap_or_default() }
     })?;
-    let loaded = mesh::load(&bytes(file)?, &options, weld)?;
+    let loaded = load(&bytes(file)?, &options)?;
     let answer = Answer::new();
     let fields = Array::new();
     for (name, values) in &loaded.fields {
@@ -85,8 +86,7 @@ pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<JsValue, Throw
         let values = entry.get(1).dyn_into::<Float64Array>().map_err(|_| OptionError::invalid("fields", expected))?;
         named.push((name, floats(&values)?));
     }
-    let borrowed: Vec<(&str, &[f64])> =
-        named.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
+    let borrowed: Vec<(&str, &[f64])> = named.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
     let mesh = mesh.mesh();
     let options = WriteOptions { format, binary };
     let written =

@@ -7,6 +7,7 @@ use super::mesh::RawTriMesh;
 use super::reading::Reading;
 use crate::error::{OptionError, Result as Outcome};
 use crate::field::{self, ScalarField};
+use crate::support::watch::Watch;
 use crate::wasm::shared::answer::Answer;
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
@@ -20,9 +21,8 @@ impl RawTriMesh {
     pub fn level_sets(&self, values: &Float64Array, levels: &JsValue, options: &JsValue) -> Result<Object, Thrown> {
         let reading = read("", options, Reading::read)?;
         let levels = Levels::read(levels, true)?;
-        let sets = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::level_sets(field.mesh(), field.values(), &levels.values(field)?)?)
-        })?;
+        let sets = reading
+            .of(self.mesh(), values, |field, watch| field::level_sets(field, &levels.values(field, watch)?, watch))?;
         let answer = Answer::new();
         answer.array("points", &sets.points);
         answer.array("offsets", &sets.offsets);
@@ -37,9 +37,8 @@ impl RawTriMesh {
     pub fn bands(&self, values: &Float64Array, levels: &JsValue, options: &JsValue) -> Result<Object, Thrown> {
         let reading = read("", options, Reading::read)?;
         let levels = Levels::read(levels, false)?;
-        let bands = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::bands(field.mesh(), field.values(), &levels.values(field)?)?)
-        })?;
+        let bands = reading
+            .of(self.mesh(), values, |field, watch| field::bands(field, &levels.values(field, watch)?, watch))?;
         let answer = Answer::new();
         answer.array("levels", &bands.levels);
         answer.array("points", &bands.points);
@@ -66,16 +65,15 @@ impl Levels {
         if let Some(levels) = levels.dyn_ref::<Float64Array>() {
             return Ok(Self::At(floats(levels)?));
         }
-        read("", levels, |record| if can_be_at_saddles { Self::at_saddles(record) } else { Self::count(record) })?.ok_or_else(
-            || {
+        read("", levels, |record| if can_be_at_saddles { Self::at_saddles(record) } else { Self::count(record) })?
+            .ok_or_else(|| {
                 let expected = if can_be_at_saddles {
                     "a list of numbers, { count } or { saddles }"
                 } else {
                     "a list of numbers or { count }"
                 };
                 OptionError::InvalidArgument { argument: "levels".to_owned(), expected: expected.to_owned() }.into()
-            },
-        )
+            })
     }
 
     fn count(record: &Record) -> Option<Self> {
@@ -102,13 +100,11 @@ impl Levels {
         saddles.map(|vertices| Self::Saddles(vertices, offset))
     }
 
-    fn values(&self, field: &ScalarField<'_>) -> Outcome<Vec<f64>> {
+    fn values(&self, field: &ScalarField<'_>, watch: &Watch<'_>) -> Outcome<Vec<f64>> {
         match self {
             Self::At(levels) => Ok(levels.clone()),
-            Self::Count(count) => field::evenly_spaced_levels(field.mesh(), field.values(), *count as usize),
-            Self::Saddles(vertices, offset) => {
-                field::saddle_levels(field.mesh(), field.values(), vertices.as_deref(), *offset)
-            }
+            Self::Count(count) => field::evenly_spaced_levels(field, *count as usize),
+            Self::Saddles(vertices, offset) => field::saddle_levels(field, vertices.as_deref(), *offset, watch),
         }
     }
 }

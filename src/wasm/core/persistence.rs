@@ -18,8 +18,7 @@ use crate::wasm::shared::record::read;
 impl RawTriMesh {
     pub fn persistence(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let reading = read("", options, Reading::read)?;
-        let diagram = reading
-            .of(self.mesh(), values, |field, _watch| Ok(field::persistence(field.mesh(), field.values())?))?;
+        let diagram = reading.of(self.mesh(), values, field::persistence)?;
         let pairs = &diagram.pairs;
         let answer = Answer::new();
         answer.column("extrema", pairs.len(), &|k| pairs[k].extremum);
@@ -37,9 +36,7 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = persistenceCurve)]
     pub fn persistence_curve(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let reading = read("", options, Reading::read)?;
-        let curve = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::persistence(field.mesh(), field.values())?.curve())
-        })?;
+        let curve = reading.of(self.mesh(), values, |field, watch| Ok(field::persistence(field, watch)?.curve()))?;
         let answer = Answer::new();
         answer.array("threshold", &curve.threshold);
         answer.array("minima", &curve.minima);
@@ -50,12 +47,10 @@ impl RawTriMesh {
     pub fn simplify(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let (reading, kept) = read("", options, |record| (Reading::read(record), kept(record)))?;
         let kept = kept.copied()?;
-        let simple = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::simplify(field.mesh(), field.values(), kept.keep())?)
-        })?;
+        let simple = reading.of(self.mesh(), values, |field, watch| field::simplify(field, kept.keep(), watch))?;
         let answer = Answer::new();
-        answer.array("values", &simple);
-        answer.array::<u32>("unavoidable", &[]);
+        answer.array("values", &simple.values);
+        answer.array("unavoidable", &simple.unavoidable);
         Ok(answer.finish()?)
     }
 
@@ -64,9 +59,8 @@ impl RawTriMesh {
         let (reading, persistence, style) = read("", options, |record| {
             (Reading::read(record), cancelled_up_to(record), record.choice("paths").unwrap_or_default())
         })?;
-        let complex = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::morse_complex(field.mesh(), field.values(), persistence, style)?)
-        })?;
+        let complex =
+            reading.of(self.mesh(), values, |field, watch| field::morse_complex(field, persistence, style, watch))?;
         let mut points: Vec<f64> = memory::with_room(3 * complex.vertices.len())?;
         for &v in &complex.vertices {
             points.extend_from_slice(&self.mesh().position(v));
@@ -84,8 +78,7 @@ impl RawTriMesh {
     #[wasm_bindgen(js_name = morseHierarchy)]
     pub fn morse_hierarchy(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
         let reading = read("", options, Reading::read)?;
-        let hierarchy = reading
-            .of(self.mesh(), values, |field, _watch| Ok(field::morse_hierarchy(field.mesh(), field.values())?))?;
+        let hierarchy = reading.of(self.mesh(), values, field::morse_hierarchy)?;
         let nodes = &hierarchy.nodes;
         let answer = Answer::new();
         answer.column("vertices", nodes.len(), &|k| nodes[k].vertex);
@@ -98,11 +91,8 @@ impl RawTriMesh {
     }
 
     pub fn basins(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let (reading, persistence) =
-            read("", options, |record| (Reading::read(record), cancelled_up_to(record)))?;
-        let basins = reading.of(self.mesh(), values, |field, _watch| {
-            Ok(field::basins(field.mesh(), field.values(), persistence)?)
-        })?;
+        let (reading, persistence) = read("", options, |record| (Reading::read(record), cancelled_up_to(record)))?;
+        let basins = reading.of(self.mesh(), values, |field, watch| field::basins(field, persistence, watch))?;
         let answer = Answer::new();
         answer.array("descending", &basins.descending);
         answer.array("ascending", &basins.ascending);

@@ -59,12 +59,7 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
     Ok(run(&mut smoother, &smoothing, &watching, values)?)
 }
 
-fn run(
-    smoother: &mut Smoother,
-    smoothing: &Smoothing,
-    watching: &Watching,
-    values: &Float64Array,
-) -> Outcome<Object> {
+fn run(smoother: &mut Smoother, smoothing: &Smoothing, watching: &Watching, values: &Float64Array) -> Outcome<Object> {
     let values = floats(values)?;
     let mut tell = |phase: crate::smooth::Phase, fraction: f64| {
         let _ = watching.tell(phase.name(), fraction);

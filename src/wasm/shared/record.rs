@@ -13,11 +13,7 @@ use crate::error::{Error, OptionError, Result};
 /// # Errors
 /// `InvalidArgument` for what is no object; `UnknownOption` for an entry that `fields` did not ask for; else the first thing wrong
 /// that it came upon.
-pub(in crate::wasm) fn read<T>(
-    place: &'static str,
-    value: &JsValue,
-    fields: impl FnOnce(&Record) -> T,
-) -> Result<T> {
+pub(in crate::wasm) fn read<T>(place: &'static str, value: &JsValue, fields: impl FnOnce(&Record) -> T) -> Result<T> {
     let record = Record::new(place, value)?;
     let options = fields(&record);
     record.finish()?;
@@ -105,7 +101,12 @@ impl Record {
     }
 
     /// What `convert` makes of an entry, which is wrong if that is nothing.
-    pub(in crate::wasm) fn read<T>(&self, name: &str, expected: &str, convert: impl FnOnce(&JsValue) -> Option<T>) -> Option<T> {
+    pub(in crate::wasm) fn read<T>(
+        &self,
+        name: &str,
+        expected: &str,
+        convert: impl FnOnce(&JsValue) -> Option<T>,
+    ) -> Option<T> {
         let read = convert(self.get(name)?);
         if read.is_none() {
             self.invalid(name, expected);

@@ -1,11 +1,13 @@
 //! Lines lie where the curves are, have the width that they should, and are seen where the surface under them is.
 
-use morse_smooth::field::{LevelSets, level_sets};
+use morse_smooth::field::LevelSets;
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::render::{Levels, Scene, SnapshotOptions};
 
 use super::image::{Image, bare, coordinate, draw, from, tile, united};
 use super::planes::edges;
+
+use crate::analyses::level_sets;
 
 /// How much darker each pixel is with the lines than without them: 1 where a line covers it.
 struct Ink {

@@ -1,10 +1,11 @@
 //! What cannot be drawn is refused by name, and what is large or small is drawn.
 
-use morse_smooth::field::{CriticalKind, CriticalPoint, LevelSets, MorseComplex, Threshold, level_sets};
+use morse_smooth::field::{CriticalKind, CriticalPoint, LevelSets, MorseComplex, Threshold};
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::render::{DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, SnapshotOptions, sheet, snapshot};
 
 use super::image::{Image, WHITE, bare, code, coordinate};
+use crate::analyses::level_sets;
 use crate::support;
 
 fn torus() -> (TriMesh, Vec<f64>) {

@@ -62,7 +62,12 @@ impl ShortMethod {
 /// A method with its options; owns what the options of `smooth` borrow.
 pub(in crate::wasm::core) enum Smoothing {
     Tikhonov(TikhonovOptions),
-    Interpolate { constraining: Constraining, unconstrained: Unconstrained, energy: Energy, channels: usize },
+    Interpolate {
+        constraining: Constraining,
+        unconstrained: Unconstrained,
+        energy: Energy,
+        channels: usize,
+    },
     LeastSquares {
         constraining: Constraining,
         unconstrained: Unconstrained,

@@ -2,9 +2,10 @@
 
 use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, Measured, measured};
 use super::link::{FEW, LinkScratch};
-use super::order::VertexOrder;
-use crate::error::Error;
-use crate::mesh::{Connectivity, LinkKind, TriMesh};
+use super::scalar_field::ScalarField;
+use crate::error::Result;
+use crate::mesh::{Connectivity, LinkKind};
+use crate::support::watch::Watch;
 
 /// A critical vertex and the δ at which it stops being one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,24 +79,25 @@ impl DeltaHierarchy {
 /// the absolute ones, where D is [`largest_edge_difference`]. One pass over the triangles, and a sort.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
+/// `Cancelled`.
 ///
 /// # Example
 /// ```
-/// use morse_smooth::{field, mesh::shapes};
+/// use morse_smooth::{Watch, field, mesh::shapes};
 /// let torus = shapes::torus(40, 20, 0.0)?;
 /// let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();
-/// let hierarchy = field::delta_hierarchy(&torus, &height, field::LinkReading::Consecutive)?;
+/// let height = field::ScalarField::new(&torus, &height)?;
+/// let hierarchy = field::delta_hierarchy(&height, field::LinkReading::Consecutive, &Watch::none())?;
 /// assert_eq!(hierarchy.counts_at(0.0).saddles, 2);
 /// assert_eq!(hierarchy.points_at(0.9).count(), 0);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Result<DeltaHierarchy, Error> {
-    let connectivity = mesh.connectivity();
-    let order = VertexOrder::new(values, connectivity.vertex_count())?;
+pub fn delta_hierarchy(field: &ScalarField<'_>, link: LinkReading, watch: &Watch<'_>) -> Result<DeltaHierarchy> {
+    let (connectivity, values, order) = (field.mesh().connectivity(), field.values(), field.order());
+    watch.tick(60 * values.len() as u64)?;
     let Measured { found, nearest, largest } = measured(connectivity, order);
     let kinds = connectivity.link_kinds();
-    let mut thresholds = Thresholds { connectivity, values, link, scratch: None, units: Vec::new(), upper: Vec::new() };
+    let mut thresholds = Thresholds { connectivity, values, link, scratch: None, parts: Vec::new(), upper: Vec::new() };
     let mut points = Vec::with_capacity(found.points.len());
     let counts = found.counts;
     let mut keys = Vec::with_capacity((counts.minima + counts.maxima + counts.saddles) as usize);
@@ -112,11 +114,11 @@ pub fn delta_hierarchy(mesh: &TriMesh, values: &[f64], link: LinkReading) -> Res
         } else {
             thresholds.find(vertex);
             // Parts without a positive δ are told from equal neighbours by ids alone.
-            let absolute = |unit: usize| thresholds.units.get(unit).map_or(0.0, |&bits| f64::from_bits(bits));
+            let absolute = |part: usize| thresholds.parts.get(part).map_or(0.0, |&bits| f64::from_bits(bits));
             vanishes_at_absolute = absolute(0);
             vanishes_at = relative(vanishes_at_absolute, largest);
-            for unit in 0..multiplicity as usize {
-                keys.push(key(relative(absolute(unit), largest), kind));
+            for part in 0..multiplicity as usize {
+                keys.push(key(relative(absolute(part), largest), kind));
             }
         }
         points.push(HierarchyPoint { vertex, kind, vanishes_at, vanishes_at_absolute });
@@ -136,7 +138,7 @@ struct Thresholds<'a> {
     /// Made for the first vertex that needs it: many fields have none.
     scratch: Option<LinkScratch>,
     /// The result, as the bits of positive numbers: for every part of a saddle its δ, descending.
-    units: Vec<u64>,
+    parts: Vec<u64>,
     upper: Vec<u64>,
 }
 
@@ -144,7 +146,7 @@ impl Thresholds<'_> {
     /// Of a saddle.
     fn find(&mut self, vertex: u32) {
         let is_cycle = self.connectivity.link_kinds()[vertex as usize] == LinkKind::Cycle;
-        self.units.clear();
+        self.parts.clear();
         if !is_cycle || self.link == LinkReading::Skip {
             self.components(vertex, is_cycle);
         } else {
@@ -160,18 +162,18 @@ impl Thresholds<'_> {
             let (x, y) = (self.values[a as usize] - value, self.values[b as usize] - value);
             // Where one is equal, what is counted or not is zero.
             if (x < 0.0) != (y < 0.0) {
-                self.units.push(x.abs().min(y.abs()).to_bits());
+                self.parts.push(x.abs().min(y.abs()).to_bits());
             }
         }
         // The bits of numbers that are not negative are ordered as the numbers are.
-        self.units.sort_unstable();
-        self.units.reverse();
-        let mut units = 0;
-        for place in (3..self.units.len()).step_by(2) {
-            self.units[units] = self.units[place];
-            units += 1;
+        self.parts.sort_unstable();
+        self.parts.reverse();
+        let mut parts = 0;
+        for place in (3..self.parts.len()).step_by(2) {
+            self.parts[parts] = self.parts[place];
+            parts += 1;
         }
-        self.units.truncate(units);
+        self.parts.truncate(parts);
     }
 
     /// Part j of a saddle lasts while the lower or the upper link has more than j components, and both have one.
@@ -179,23 +181,23 @@ impl Thresholds<'_> {
         let (connectivity, values) = (self.connectivity, self.values);
         let scratch = self.scratch.get_or_insert_with(|| LinkScratch::new(connectivity.vertex_count()));
         scratch.measure(connectivity, vertex, |j| values[j as usize] - values[vertex as usize]);
-        scratch.component_ends(&mut self.units);
+        scratch.component_ends(&mut self.parts);
         if !is_cycle {
             scratch.turn_over();
             scratch.component_ends(&mut self.upper);
             let deepest = |ends: &[u64]| ends.first().copied().unwrap_or_default();
-            let both = deepest(&self.units).min(deepest(&self.upper));
-            self.units.resize(self.units.len().max(self.upper.len()), 0);
-            for (end, &upper) in self.units.iter_mut().zip(&self.upper) {
+            let both = deepest(&self.parts).min(deepest(&self.upper));
+            self.parts.resize(self.parts.len().max(self.upper.len()), 0);
+            for (end, &upper) in self.parts.iter_mut().zip(&self.upper) {
                 *end = (*end).max(upper);
             }
-            for end in &mut self.units {
+            for end in &mut self.parts {
                 *end = (*end).min(both);
             }
         }
         // Around a cycle components below and above alternate: two below have two above between them.
-        if !self.units.is_empty() {
-            self.units.remove(0);
+        if !self.parts.is_empty() {
+            self.parts.remove(0);
         }
     }
 }

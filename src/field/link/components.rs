@@ -25,9 +25,9 @@ pub(in crate::field) struct LinkScratch {
     counted: Vec<bool>,
     /// f_j − f_i of the link vertices, or f_i − f_j.
     differences: Vec<f64>,
-    /// The edges by ascending level.
+    /// The edges by ascending height.
     order: Vec<u32>,
-    levels: Vec<f64>,
+    heights: Vec<f64>,
 }
 
 /// So few numbers are sorted fastest by insertion.
@@ -47,7 +47,7 @@ impl LinkScratch {
             counted: Vec::new(),
             differences: Vec::new(),
             order: Vec::new(),
-            levels: Vec::new(),
+            heights: Vec::new(),
         }
     }
 
@@ -113,7 +113,7 @@ impl LinkScratch {
             let is_elder = self.differences[a as usize] <= self.differences[b as usize];
             let (elder, younger) = if is_elder { (a, b) } else { (b, a) };
             self.graph.sets.link(younger, elder);
-            push_positive(ends, (-self.differences[younger as usize]).min(self.levels[edge]));
+            push_positive(ends, (-self.differences[younger as usize]).min(self.heights[edge]));
         }
         for v in 0..self.graph.nodes.len() {
             if self.graph.sets.is_name(v as u32) {
@@ -124,22 +124,22 @@ impl LinkScratch {
         ends.reverse();
     }
 
-    /// Puts the edges in the order of their levels, the higher difference of their two ends.
+    /// Puts the edges in the order of their heights, the higher difference of their two ends.
     fn sort_edges(&mut self) {
-        self.levels.clear();
+        self.heights.clear();
         for &[a, b] in &self.graph.edges {
             let (x, y) = (self.differences[a as usize], self.differences[b as usize]);
-            self.levels.push(if x > y { x } else { y });
+            self.heights.push(if x > y { x } else { y });
         }
         self.order.clear();
-        if self.levels.len() > FEW {
-            self.order.extend(sort(&self.levels).1.iter().map(|&edge| edge as u32));
+        if self.heights.len() > FEW {
+            self.order.extend(sort(&self.heights).1.iter().map(|&edge| edge as u32));
             return;
         }
-        for edge in 0..self.levels.len() {
+        for edge in 0..self.heights.len() {
             self.order.push(edge as u32);
             let mut place = edge;
-            while place > 0 && self.levels[self.order[place - 1] as usize] > self.levels[edge] {
+            while place > 0 && self.heights[self.order[place - 1] as usize] > self.heights[edge] {
                 self.order.swap(place - 1, place);
                 place -= 1;
             }

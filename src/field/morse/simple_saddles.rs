@@ -12,15 +12,15 @@ use crate::mesh::{LinkKind, TriMesh};
 /// a small perturbation would have it: the first path down goes to each of the others, and such a pair separates two
 /// neighbouring paths up, so that every pair down crosses one pair up and no other.
 #[derive(Debug, Default)]
-pub(super) struct Units {
+pub(super) struct SimpleSaddles {
     pub(super) vertices: Vec<u32>,
     pub(super) down: Vec<[u32; 2]>,
     pub(super) up: Vec<[u32; 2]>,
-    /// The units by ascending (value, id), those of one vertex in their order.
+    /// The saddles by ascending (value, id), those of one vertex in their order.
     pub(super) ascending: Vec<u32>,
 }
 
-impl Units {
+impl SimpleSaddles {
     pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
         let saddles = Saddles::steepest(mesh, order);
         let mut this = Self::default();

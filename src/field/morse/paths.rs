@@ -1,11 +1,11 @@
-//! Where vertices flow to in one direction, before and after cancellations.
+//! Where steepest paths lead in one direction, before and after cancellations.
 
 use crate::field::steepest::ends;
 
 /// A forest: every vertex leads on to another one, and an extremum to itself. Behind the vertices come the simple saddles,
-/// through which cancelled extrema flow; such an entry is for the vertex of its saddle.
+/// over which the paths of cancelled extrema go on; such an entry is for the vertex of its saddle.
 #[derive(Debug)]
-pub(super) struct Flow<'a> {
+pub(super) struct Paths<'a> {
     next: Vec<u32>,
     vertices: usize,
     /// The vertex of every simple saddle.
@@ -14,20 +14,20 @@ pub(super) struct Flow<'a> {
     crossed: Vec<bool>,
 }
 
-/// A simple saddle that a cancelled extremum flows over, with the first vertices of its two paths.
+/// A simple saddle that the path of a cancelled extremum goes over, with the first vertices of its two paths.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
-    pub(super) unit: u32,
+    pub(super) simple: u32,
     pub(super) extremum: u32,
     pub(super) sides: [u32; 2],
 }
 
-impl<'a> Flow<'a> {
+impl<'a> Paths<'a> {
     /// `steepest` has the next vertex of each vertex, `ends` the extremum at which its path ends, where there are crossings.
     ///
-    /// Cancelling an extremum turns round the path that comes down (or up) from the saddle to it, so that what flowed to it goes
+    /// Cancelling an extremum turns round the path that comes down (or up) from the saddle to it, so that what led to it goes
     /// back and over the saddle. One such path after the other would be turned round again and again: what comes of it in the
-    /// end is a tree of basins with the crossings as its edges, and every basin flows to the one next to it on the way to the
+    /// end is a tree of basins with the crossings as its edges, and every basin leads to the one next to it on the way to the
     /// extremum that is left.
     pub(super) fn new(steepest: &[u32], ends: &[u32], saddles: &'a [u32], crossings: &[Crossing]) -> Self {
         let vertices = steepest.len();
@@ -80,18 +80,18 @@ impl<'a> Flow<'a> {
                 if core::mem::replace(&mut done[i as usize], true) {
                     continue;
                 }
-                let Crossing { unit, sides: [a, b], .. } = crossings[i as usize];
+                let Crossing { simple, sides: [a, b], .. } = crossings[i as usize];
                 let (to, from) = if ends[a as usize] == basin { (a, b) } else { (b, a) };
-                self.turn_round(unit, from, to);
+                self.turn_round(simple, from, to);
                 waiting.push(ends[from as usize]);
             }
         }
     }
 
     /// What led from `from` on to its extremum leads back, over the simple saddle and on to `to`.
-    fn turn_round(&mut self, unit: u32, from: u32, to: u32) {
-        let saddle = self.vertices as u32 + unit;
-        let vertex = self.saddles[unit as usize];
+    fn turn_round(&mut self, simple: u32, from: u32, to: u32) {
+        let saddle = self.vertices as u32 + simple;
+        let vertex = self.saddles[simple as usize];
         let (mut before, mut at) = (saddle, from);
         self.crossed[vertex as usize] = true;
         loop {
@@ -112,9 +112,9 @@ impl<'a> Flow<'a> {
     /// Where a path over a saddle would come back to its vertex at once, it stays there.
     fn cut_short(&mut self, crossings: &[Crossing]) {
         for crossing in crossings {
-            let saddle = (self.vertices as u32 + crossing.unit) as usize;
+            let saddle = (self.vertices as u32 + crossing.simple) as usize;
             let back = self.next[self.next[saddle] as usize];
-            if self.vertex(back) == self.saddles[crossing.unit as usize] && back != self.next[saddle] {
+            if self.vertex(back) == self.saddles[crossing.simple as usize] && back != self.next[saddle] {
                 self.next[saddle] = back;
             }
         }
@@ -146,7 +146,7 @@ impl<'a> Flow<'a> {
     #[inline]
     pub(super) fn vertex(&self, at: u32) -> u32 {
         match (at as usize).checked_sub(self.vertices) {
-            Some(unit) => self.saddles[unit],
+            Some(simple) => self.saddles[simple],
             None => at,
         }
     }
@@ -155,7 +155,7 @@ impl<'a> Flow<'a> {
         self.next.len()
     }
 
-    /// For every entry the extremum that it flows to.
+    /// For every entry the extremum at which its path ends.
     pub(super) fn ends(&self) -> Vec<u32> {
         ends(&self.next)
     }
