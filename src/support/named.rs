@@ -1,5 +1,14 @@
 //! Names of choices: each choice has one name, which options, reports, messages and the command line all use.
 
+/// What has names, for code that reads choices of any kind.
+pub(crate) trait Named: Copy + 'static {
+    /// All choices.
+    const CHOICES: &'static [Self];
+
+    /// The name of a choice.
+    fn label(self) -> &'static str;
+}
+
 /// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
 /// files are, `any case` stands before them.
 ///
@@ -15,6 +24,7 @@ macro_rules! named {
         named! { @ $type, str::eq_ignore_ascii_case, { $($names)* } }
     };
     (@ $type:ident, $same:expr, { $($variant:ident = $name:literal),* $(,)? }) => {
+        #[allow(dead_code, reason = "not every choice is found by its name, or listed, everywhere")]
         impl $type {
             /// All of them, in the order in which they are listed to users.
             pub const ALL: &'static [Self] = &[$(Self::$variant),*];
@@ -32,6 +42,14 @@ macro_rules! named {
             pub fn from_name(name: &str) -> Option<Self> {
                 let same: fn(&str, &str) -> bool = $same;
                 Self::ALL.iter().copied().find(|choice| same(choice.name(), name))
+            }
+        }
+
+        impl crate::support::named::Named for $type {
+            const CHOICES: &'static [Self] = Self::ALL;
+
+            fn label(self) -> &'static str {
+                self.name()
             }
         }
     };

@@ -93,7 +93,7 @@ export class Methods {
 
   private simplified(before: Float64Array, settings: Settings, pairs: PersistencePairs): Result {
     const { persistence, overrides } = settings;
-    const values = this.mesh.simplify(
+    const { values } = this.mesh.simplify(
       before,
       hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence },
     );
