@@ -58,7 +58,8 @@ const SOLVER: [&[&str]; 11] = [
 ];
 
 /// The files and folders of `field` in groups, likewise.
-const FIELD: [&[&str]; 10] = [
+const FIELD: [&[&str]; 11] = [
+    &["arrays"],
     &["order", "sorting", "link"],
     &["scalar_field", "sweep"],
     &["critical", "steepest"],
