@@ -33,7 +33,7 @@ await main(async () => {
     if ((await page.settled()) !== 'ready') throw new Problem('The page does not come up: npm test says more.');
     await page.after(() => page.at('example').selectOption('earth'));
     await page.after(() => page.at('method').selectOption('simplify'));
-    await page.after(() => page.at('colouring').selectOption('minima'));
+    await page.after(() => page.at('coloring').selectOption('minima'));
     await page.after(() => page.at('show-complex').check());
     await page.at('show-levels').uncheck();
     await page.at('show-glyphs').uncheck();
@@ -41,7 +41,7 @@ await main(async () => {
     await page.look('after');
     await save(page, 'reading', await page.page.locator('main').screenshot());
 
-    await page.at('colouring').selectOption('value');
+    await page.at('coloring').selectOption('value');
     await page.at('show-complex').uncheck();
     await page.after(() => page.at('example').selectOption('lysozyme'));
     await page.after(() => page.at('method').selectOption('interpolate'));

@@ -419,7 +419,7 @@ stage_error! {
         NotPositiveDefinite {
             /// The column, hence the unknown.
             column: usize,
-        } => "the matrix is not numerically positive definite at unknown {column} (on a mesh: that vertex); a larger epsilon helps, or, where triangles are very thin, the weights `intrinsicDelaunay`",
+        } => "the matrix is not numerically positive definite at unknown {column}",
         /// A preconditioner turned a residual by a right angle or more.
         IndefinitePreconditioner {
             /// Iterations done.
@@ -451,7 +451,7 @@ stage_error! {
             component: usize,
             /// That vertex.
             vertex: u32,
-        } => "component {component} of the mesh, with vertex {vertex}, has no constrained vertex; constrain one of its vertices, or choose to keep its values or their mean (option `unconstrained`)",
+        } => "component {component} of the mesh, with vertex {vertex}, has no constrained vertex, or no value where missing ones are to be filled in; constrain one of its vertices, or choose to keep its values or their mean (option `unconstrained`)",
         /// Not one weight per constrained vertex.
         LengthMismatch {
             /// Number of constrained vertices.
@@ -466,6 +466,18 @@ stage_error! {
             /// The constrained vertex.
             vertex: u32,
         } => "the weight of vertex {vertex} (number {index}) is not positive and finite",
+        /// The system of a smoothing is not positive definite to the precision of a factor.
+        NotPositiveDefinite {
+            /// A vertex where that is seen.
+            column: usize,
+        } => "the system is not numerically positive definite at vertex {column}; a larger epsilon helps, where triangles are very thin the weights `intrinsicDelaunay`, and where vertices are closer than a millionth of the mesh's diagonal to weld them with a tolerance",
+        /// The solution of a smoothing did not come to its accuracy.
+        NotConverged {
+            /// Iterations, or steps of refinement, done.
+            iterations: usize,
+            /// Relative residual or correction reached.
+            residual: f64,
+        } => "not converged after {iterations} iterations: {residual:e} reached; a larger epsilon helps, where triangles are very thin the weights `intrinsicDelaunay`, and where vertices are closer than a millionth of the mesh's diagonal to weld them with a tolerance",
         /// The steps of a filter make values grow beyond all bounds.
         Diverged {
             /// Steps taken.

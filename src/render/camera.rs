@@ -32,7 +32,7 @@ pub struct Camera {
 pub(super) struct View {
     /// Right, up and towards the camera, in the surface's coordinates.
     axes: [[f64; 3]; 3],
-    /// Of the camera, along the axes.
+    /// Where the camera is, along the axes.
     eye: [f64; 3],
     /// Pixels of a length of 1 at distance 1, and the picture's middle.
     focus: f64,
@@ -56,7 +56,7 @@ impl View {
         let focus = 0.5 * width.min(height) / TANGENT;
         let tangents = [0.5 * width / focus, 0.5 * height / focus];
         // A ball of radius r around (x, y, z) is inside the right edge of a camera at (a, b, d) if
-        // x + z·tan + r·√(1 + tan²) ≤ a + d·tan; likewise the others.
+        // x + z·tan + r·√(1 + tan²) ≤ a + d·tan; and so for the others.
         let mut reach = [[f64::NEG_INFINITY; 2]; 2];
         for point in surface.positions.as_chunks::<3>().0 {
             let z = dot(*point, axes[2]);

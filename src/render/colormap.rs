@@ -1,16 +1,16 @@
-//! From values to colours.
+//! From values to colors.
 
 use crate::error::OptionError;
 
-/// Red, green and blue of the sRGB colour space.
+/// Red, green and blue of the sRGB color space.
 pub type Rgb = [u8; 3];
 
-/// How many colours a map is tabulated with: steps that no eye tells apart.
+/// How many colors a map is tabulated with: steps that no eye tells apart.
 pub(super) const SAMPLES: usize = 512;
 
-/// A map of colours from the low end of a range to the high end.
+/// A map of colors from the low end of a range to the high end.
 ///
-/// The first five are perceptually uniform: equal steps of the value look like equal steps, also in grey and for most colour-blind
+/// The first five are perceptually uniform: equal steps of the value look like equal steps, also in grey and for most color-blind
 /// people. The others diverge from their middle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Colormap {
@@ -45,7 +45,7 @@ const MAPS: [(&str, Colormap); 8] = [
     ("purpleGreen", Colormap::PurpleGreen),
 ];
 
-/// Of the cool-warm map, at equal steps; straight lines between them.
+/// The cool-warm map at equal steps; straight lines lie between them.
 const COOL_WARM: [Rgb; 9] = [
     [59, 76, 192],
     [98, 130, 234],
@@ -77,7 +77,7 @@ impl Colormap {
         MAPS.iter().find(|&&(_, map)| map == self).map_or("", |&(name, _)| name)
     }
 
-    /// The colour at `t`: 0 is the low end and 1 the high end, beyond which the colours stay.
+    /// The color at `t`: 0 is the low end and 1 the high end, beyond which the colors stay.
     #[must_use]
     pub fn color(self, t: f64) -> Rgb {
         let t = if t > 0.0 { t.min(1.0) } else { 0.0 };
@@ -100,7 +100,7 @@ impl Colormap {
     }
 }
 
-/// The colour at a place of a table, 0 to 1.
+/// The color at a place of a table, 0 to 1.
 pub(super) fn between(table: &[Rgb], t: f64) -> Rgb {
     let place = t * (table.len() - 1) as f64;
     let from = (place as usize).min(table.len() - 2);

@@ -16,15 +16,17 @@ const MOST_LEVELS: u32 = 10_000;
 /// What is drawn on a surface. It does not depend on the camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawList {
-    /// For every corner of the surface its place in the colours, 0 to 1; beyond, the colour is the first or the last. Linear on
-    /// triangles, as the field is.
+    /// For every corner of the surface its place in the colors, 0 to 1; beyond, the color is the first or the last. Linear on
+    /// triangles, as the field is. NaN where there is no value, and then the whole triangle has the color of gaps.
     pub shades: Vec<f64>,
-    /// The colours, at equal steps from 0 to 1; linear between them where there are no steps.
+    /// The colors, at equal steps from 0 to 1; linear between them where there are no steps.
     pub colors: Vec<Rgb>,
-    /// Where one colour goes over into the next at once, ascending; empty where colours are continuous.
+    /// Where one color goes over into the next at once, ascending; empty where colors are continuous.
     pub steps: Vec<f64>,
-    /// Of the parts between the steps, one more than these; empty likewise.
+    /// The colors of the parts between the steps, one more than there are steps; empty where colors are continuous.
     pub step_colors: Vec<Rgb>,
+    /// The color of triangles with a corner without a value; `None` where every corner has one.
+    pub gap: Option<Rgb>,
     /// The values at the places 0 and 1.
     pub range: [f64; 2],
     /// The levels that lines are drawn at, ascending.
@@ -33,9 +35,9 @@ pub struct DrawList {
     pub lines: Vec<Lines>,
     /// Critical points, one entry for each kind that there is.
     pub solids: Vec<Solids>,
-    /// Of the radius of solids, for whoever draws fewer of them.
+    /// The rule for the radius of solids, for whoever draws fewer of them.
     pub size: SolidSize,
-    /// The same for all.
+    /// The light, the same for the surface and all solids.
     pub light: Light,
 }
 
@@ -78,11 +80,11 @@ pub struct Solids {
     pub role: Role,
     /// The solid.
     pub shape: Shape,
-    /// The colour.
+    /// The color.
     pub color: Rgb,
     /// What surrounds it.
     pub rim: Rim,
-    /// What shines of the colour without light, 0 to 1.
+    /// What shines of the color without light, 0 to 1.
     pub glow: f64,
     /// The vertex of every instance.
     pub vertices: Vec<u32>,
@@ -92,7 +94,7 @@ pub struct Solids {
     pub axes: Vec<[f64; 3]>,
     /// Whether the surface is open there, so that the axis is turned to the side that is looked at.
     pub both_sides: Vec<bool>,
-    /// Of one solid, as drawn.
+    /// The radius of one solid, as drawn.
     pub radius: f64,
     /// How many radii it stands above the surface.
     pub lift: f64,
@@ -106,10 +108,11 @@ impl DrawList {
         options: &DrawOptions<'_>,
     ) -> Result<Self, Error> {
         options.check()?;
-        let field = ScalarField::new(mesh, values)?;
+        let field = ScalarField::with_missing(mesh, values, options.missing)?;
         let found = field.range();
         let range = options.range.unwrap_or([found.min, found.max]);
         let shades: Vec<f64> = surface.vertices.iter().map(|&v| shade(values[v as usize], range)).collect();
+        let gap = shades.iter().any(|shade| shade.is_nan()).then_some(style::GAP);
         let (levels, sets) = level_lines(&field, range, options.levels)?;
         let colors = options.colormap.table();
         let (mut steps, mut step_colors) = (Vec::new(), Vec::new());
@@ -126,13 +129,16 @@ impl DrawList {
         let size = SolidSize { cover: style::SIZE.cover * surface.area, ..style::SIZE };
         let points = critical_points(&field, options.critical_points)?;
         let solids = solids(mesh, surface, &points, size);
-        Ok(Self { shades, colors, steps, step_colors, range, levels, lines, solids, size, light: style::LIGHT })
+        let light = style::LIGHT;
+        Ok(Self { shades, colors, steps, step_colors, gap, range, levels, lines, solids, size, light })
     }
 
-    /// The colour at a place, 0 to 1.
+    /// The color at a place, 0 to 1; that of gaps where the place is NaN.
     #[must_use]
     pub fn color(&self, shade: f64) -> Rgb {
-        if self.step_colors.is_empty() {
+        if shade.is_nan() {
+            style::GAP
+        } else if self.step_colors.is_empty() {
             between(&self.colors, shade.clamp(0.0, 1.0))
         } else {
             self.step_colors[self.steps.partition_point(|&step| step <= shade)]
@@ -140,10 +146,16 @@ impl DrawList {
     }
 }
 
-/// Where a value is in a range; in the middle where that is one value.
+/// Where a value is in a range; in the middle where that is one value. NaN remains NaN.
 fn shade(value: f64, [low, high]: [f64; 2]) -> f64 {
     // Triangles reach from inside a range to far outside: only what would not fit single precision is cut.
-    if high > low { ((value - low) / (high - low)).clamp(-1e30, 1e30) } else { 0.5 }
+    if high > low {
+        ((value - low) / (high - low)).clamp(-1e30, 1e30)
+    } else if value.is_nan() {
+        value
+    } else {
+        0.5
+    }
 }
 
 /// The levels, ascending, and their lines.
@@ -199,7 +211,7 @@ fn are_offsets(offsets: &[u32], points: usize) -> bool {
 
 /// The lines to minima and those to maxima.
 fn separatrices(field: &ScalarField<'_>, surface: &Surface, wanted: Separatrices<'_>) -> Result<Vec<Lines>, Error> {
-    let mesh = field.mesh();
+    let mesh = field.whole_mesh();
     let traced;
     let complex: &MorseComplex = match wanted {
         Separatrices::None => return Ok(Vec::new()),
@@ -241,7 +253,7 @@ fn critical_points<'a>(
         Glyphs::None => Vec::new().into(),
         Glyphs::Found => field::critical_points(field, &DeltaOptions::default(), &Watch::none())?.points.into(),
         Glyphs::Points(points) => {
-            check_vertices(field.mesh(), points.iter().map(|point| point.vertex))?;
+            check_vertices(field.whole_mesh(), points.iter().map(|point| point.vertex))?;
             points.into()
         }
     })

@@ -11,11 +11,11 @@
 //! | `Mx y` | begins a stroke |
 //! | `Lx y`, `Hx`, `Vy` | straight, sideways, upright to a point |
 //! | `Rx y`, `Ux y` | a quarter of an ellipse that sets out sideways and arrives upright, or sets out upright |
-//! | `Qa b x y` | likewise, around the corner (a, b) of any angle |
+//! | `Qa b x y` | an arc around the corner (a, b) of any angle |
 //! | `Oa b x y` | an ellipse in the box with these corners |
 //! | `Dx y` | a dot |
 
-/// Of capitals and digits, in units.
+/// The height of capitals and digits, in units.
 pub(super) const CAPITALS: f64 = 70.0;
 /// The lines that the glyphs stand between, in units: below descenders, baseline, small letters, capitals.
 pub(super) const LINES: [f64; 4] = [-20.0, 0.0, 50.0, CAPITALS];
@@ -150,7 +150,7 @@ const GLYPHS: [&str; 114] = [
     "∞ 84M42 35Q53 51 62 51R76 35U62 19Q53 19 42 35Q31 51 22 51R8 35U22 19Q31 19 42 35",
 ];
 
-/// Of characters that are not there.
+/// The drawing of characters that are not there.
 const UNKNOWN: &str = "58M10 0V70H48V0H10";
 
 fn glyph(character: char) -> &'static str {

@@ -1,4 +1,4 @@
-//! The colour bar: which colour is which value.
+//! The color bar: which color is which value.
 
 use tiny_skia::{Paint, PixmapMut, Rect, Transform};
 
@@ -13,7 +13,7 @@ use super::ticks::{round_ticks, tick_label};
 const BAR: f64 = 1.1;
 const MARK: f64 = 0.3;
 const GAP: f64 = 0.25;
-/// Width of all lines, likewise, and length of a level's mark in the bar, of the bar's width.
+/// Width of all lines in sizes of the text, and length of a level's mark in the bar, of the bar's width.
 const LINE: f64 = 1.0 / 16.0;
 const LEVEL: f64 = 0.4;
 /// How far two labels are apart at least, and usually.
@@ -28,18 +28,26 @@ const LEVEL_ROOM: f64 = 4.0;
 const FINE: f64 = 1e-2;
 const FINE_ALONE: f64 = 1e-6;
 
-/// The width that [`draw_legend`] needs for a range in a rectangle of that height; 0 where it draws nothing.
-pub(super) fn legend_width(range: [f64; 2], height: f64, text_size: f64) -> f64 {
-    let labels = labels(range, bar_height(height, text_size), text_size);
+/// What stands beside the color of gaps, where that is below the bar, and how high it is, in sizes of the text.
+const NO_VALUE: &str = "no value";
+const GAP_BELOW: f64 = 0.9;
+const GAP_HEIGHT: f64 = 0.8;
+
+/// The width that [`draw_legend`] needs for a list in a rectangle of that height; 0 where it draws nothing.
+pub(super) fn legend_width(list: &DrawList, height: f64, text_size: f64) -> f64 {
+    let labels = labels(list.range, bar_height(height, text_size), text_size);
     if labels.is_empty() {
         return 0.0;
     }
-    let widest = labels.iter().fold(0.0_f64, |widest, label| widest.max(text_width(&label.text, text_size)));
+    let no_value = list.gap.map(|_| NO_VALUE);
+    let texts = labels.iter().map(|label| label.text.as_str()).chain(no_value);
+    let widest = texts.fold(0.0_f64, |widest, text| widest.max(text_width(text, text_size)));
     (before_labels(text_size) + widest).ceil()
 }
 
-/// Draws the bar at the left of a rectangle and its labels at the right, all inside. Labels that are too wide are left out, and so
-/// is everything where the rectangle is too low for the labels of both ends.
+/// Draws the bar at the left of a rectangle and its labels at the right, all inside, and the color of gaps, where there are any,
+/// right below the rectangle. Labels that are too wide are left out, and so is everything where the rectangle is too low for the
+/// labels of both ends.
 pub(super) fn draw_legend(pixmap: &mut PixmapMut<'_>, rectangle: &Rectangle, list: &DrawList, text_size: f64) {
     let labels = labels(list.range, bar_height(rectangle.height, text_size), text_size);
     // Whole pixels keep edges sharp.
@@ -69,6 +77,17 @@ pub(super) fn draw_legend(pixmap: &mut PixmapMut<'_>, rectangle: &Rectangle, lis
             if y > top + frame && y + frame < bottom - frame {
                 fill(pixmap, [inner_left, y, end, y + frame], style::LEVELS.color);
             }
+        }
+    }
+    if let Some(color) = list.gap {
+        let upper = bottom + (GAP_BELOW * text_size).round();
+        let lower = upper + (GAP_HEIGHT * text_size).round();
+        fill(pixmap, [left, upper, right, lower], style::INK);
+        fill(pixmap, [inner_left, upper + frame, inner_right, lower - frame], color);
+        let start = left + before_labels(text_size);
+        if start + text_width(NO_VALUE, text_size) <= (rectangle.x + rectangle.width).ceil() {
+            let baseline = 0.5 * (upper + lower + capital_height(text_size));
+            draw_text(pixmap, NO_VALUE, start, baseline, text_size, Anchor::Start, style::INK);
         }
     }
     let (mark, start) = (right + (MARK * text_size).round(), left + before_labels(text_size));
@@ -122,7 +141,7 @@ fn labels(range: [f64; 2], height: f64, text_size: f64) -> Vec<Label> {
     labels
 }
 
-/// Of a value in a range, from 0 to 1; in the middle of one value.
+/// The place of a value in a range, from 0 to 1; the middle where the range is one value.
 fn place(value: f64, [low, high]: [f64; 2]) -> f64 {
     if low < high { (value - low) / (high - low) } else { 0.5 }
 }

@@ -1,4 +1,4 @@
-//! Pictures of fields on meshes, without a graphics card: a shaded surface with the colours of the values, level sets, critical
+//! Pictures of fields on meshes, without a graphics card: a shaded surface with the colors of the values, level sets, critical
 //! points, the Morse complex. The same bytes on every platform.
 //!
 //! Data flows one way: [`Surface`] (the mesh as it is drawn) → [`DrawList`] (what is drawn on it, for this renderer and any

@@ -3,7 +3,7 @@
 use super::camera::Camera;
 use super::colormap::Colormap;
 use crate::error::OptionError;
-use crate::field::{CriticalPoint, LevelSets, MorseComplex, Threshold};
+use crate::field::{CriticalPoint, LevelSets, Missing, MorseComplex, Threshold};
 
 /// More pixels along a side than any screen or page has; the bound keeps a slip from filling the memory.
 pub(super) const LARGEST_SIDE: u32 = 8192;
@@ -13,7 +13,7 @@ pub(super) const LARGEST_SIDE: u32 = 8192;
 pub enum Levels<'a> {
     /// Nowhere.
     None,
-    /// So many levels, evenly spaced inside the range of the colours. The default is 15.
+    /// So many levels, evenly spaced inside the range of the colors. The default is 15.
     Count(u32),
     /// At these values.
     At(&'a [f64]),
@@ -48,18 +48,21 @@ pub enum Separatrices<'a> {
 /// What to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawOptions<'a> {
-    /// Colours of the values. Default [`Colormap::Viridis`].
+    /// Colors of the values. Default [`Colormap::Viridis`].
     pub colormap: Colormap,
-    /// The values that have the first and the last colour; values beyond have them, too. Default: least and greatest value.
+    /// The values that have the first and the last color; values beyond have them, too. Default: least and greatest value.
     pub range: Option<[f64; 2]>,
     /// Default: 15 levels.
     pub levels: Levels<'a>,
-    /// One colour between two levels instead of a continuous map. Default false.
+    /// One color between two levels instead of a continuous map. Default false.
     pub bands: bool,
     /// Default: all critical points.
     pub critical_points: Glyphs<'a>,
     /// Default: not drawn.
     pub morse_complex: Separatrices<'a>,
+    /// What a value that is not a number means. With [`Missing::Omit`] its triangles are drawn grey, and lines and points are
+    /// those of the field without them. Default [`Missing::Error`]; [`Missing::Fill`] does not apply.
+    pub missing: Missing,
 }
 
 impl Default for DrawOptions<'_> {
@@ -71,6 +74,7 @@ impl Default for DrawOptions<'_> {
             bands: false,
             critical_points: Glyphs::default(),
             morse_complex: Separatrices::default(),
+            missing: Missing::default(),
         }
     }
 }
@@ -89,13 +93,13 @@ impl DrawOptions<'_> {
 /// What to draw, and how large and from where.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SnapshotOptions<'a> {
-    /// What to draw. Default: colours, 15 level sets, critical points.
+    /// What to draw. Default: colors, 15 level sets, critical points.
     pub draw: DrawOptions<'a>,
     /// Pixels, 1 to 8192. Default 1200.
     pub width: u32,
     /// Pixels, 1 to 8192. Default 900.
     pub height: u32,
-    /// A bar that says which colour is which value; it is left out where the picture is too small for it. Default true.
+    /// A bar that says which color is which value; it is left out where the picture is too small for it. Default true.
     pub color_bar: bool,
     /// Written above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others
     /// become boxes. Default: nothing.
@@ -120,14 +124,14 @@ impl Default for SnapshotOptions<'_> {
 /// A sheet of three pictures side by side: before, after, difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SheetOptions<'a> {
-    /// Of each picture: `width` and `height` are those of one, the range is that of both fields, and the title is above them all.
+    /// How each picture is drawn: `width` and `height` are those of one, the range is that of both fields, and the title is above them all.
     /// Default as for a snapshot, but 600 by 560 pixels.
     pub picture: SnapshotOptions<'a>,
     /// What is written above each picture. Default: before, after, difference.
     pub titles: [&'a str; 3],
-    /// Colours of after − before. Default [`Colormap::CoolWarm`].
+    /// Colors of after − before. Default [`Colormap::CoolWarm`].
     pub difference_colormap: Colormap,
-    /// The difference that has the last colour; its negative has the first. Default: the largest that there is.
+    /// The difference that has the last color; its negative has the first. Default: the largest that there is.
     pub largest_difference: Option<f64>,
 }
 
@@ -176,7 +180,7 @@ impl SheetOptions<'_> {
         }
     }
 
-    /// Of the sheet as a whole.
+    /// Checks the size of the sheet as a whole.
     pub(super) fn check_total(&self, [width, height]: [f64; 2]) -> Result<(), OptionError> {
         for (option, side) in [("width", width), ("height", height)] {
             if side > f64::from(LARGEST_SIDE) {
@@ -198,6 +202,7 @@ impl SheetOptions<'_> {
             bands: false,
             critical_points: Glyphs::None,
             morse_complex: Separatrices::None,
+            missing: self.picture.draw.missing,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Pictures with their titles and colour bars on one sheet.
+//! Pictures with their titles and color bars on one sheet.
 
 use super::camera::{Camera, Rectangle, View};
 use super::draw_list::DrawList;
@@ -16,9 +16,9 @@ const USUAL: f64 = 900.0;
 const SMALLEST: f64 = 0.55;
 /// Height of text in pictures of the usual size.
 const TEXT: f64 = 24.0;
-/// Of a line of text with the room around it, by the height of text.
+/// Height of a line of text with the room around it, by the height of text.
 const LINE: f64 = 2.2;
-/// Room beside a colour bar, above and below it, by the height of text.
+/// Room beside a color bar, above and below it, by the height of text.
 const BESIDE: f64 = 0.8;
 const ABOVE: f64 = 1.6;
 /// A bar takes at most this part of a picture's width, and is at least so high by the height of text.
@@ -43,9 +43,9 @@ impl Text {
         if text.is_empty() || height < LOWEST * self.size { 0.0 } else { (LINE * self.size).round() }
     }
 
-    /// The width that a colour bar takes; none where the picture is too small for one.
+    /// The width that a color bar takes; none where the picture is too small for one.
     pub(super) fn bar(&self, list: &DrawList, width: f64, height: f64) -> f64 {
-        let inner = legend_width(list.range, height - 2.0 * ABOVE * self.size, self.size);
+        let inner = legend_width(list, height - 2.0 * ABOVE * self.size, self.size);
         let bar = (inner + 2.0 * BESIDE * self.size).round();
         if bar > WIDEST * width || height < LOWEST * self.size { 0.0 } else { bar }
     }

@@ -12,7 +12,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// All of one colour.
+    /// All of one color.
     pub(super) fn new(width: u32, height: u32, color: [u8; 3]) -> Result<Self, FieldError> {
         let count = 4 * width as usize * height as usize;
         let mut bytes = Vec::new();

@@ -5,7 +5,7 @@ use super::options::{DrawOptions, SheetOptions, SnapshotOptions};
 use super::page::{Page, Text};
 use super::surface::Surface;
 use crate::error::{Error, FieldError};
-use crate::field::value_range;
+use crate::field::{Missing, ScalarField};
 use crate::mesh::TriMesh;
 
 /// A mesh that is drawn more than once.
@@ -48,10 +48,10 @@ impl Scene {
         DrawList::new(&self.mesh, &self.surface, values, options)
     }
 
-    /// See [`snapshot`].
+    /// Draws a field as [`snapshot`] does.
     ///
     /// # Errors
-    /// Likewise.
+    /// As [`snapshot`].
     pub fn snapshot(&self, values: &[f64], options: &SnapshotOptions<'_>) -> Result<Vec<u8>, Error> {
         options.check()?;
         let list = self.draw_list(values, &options.draw)?;
@@ -67,17 +67,17 @@ impl Scene {
         Ok(page.to_png()?)
     }
 
-    /// See [`sheet`].
+    /// Draws two fields and their difference as [`sheet`] does.
     ///
     /// # Errors
-    /// Likewise.
+    /// As [`sheet`].
     pub fn sheet(&self, before: &[f64], after: &[f64], options: &SheetOptions<'_>) -> Result<Vec<u8>, Error> {
         options.check()?;
         let picture = &options.picture;
-        let draw = DrawOptions { range: Some(self.common_range(before, after, picture.draw.range)?), ..picture.draw };
+        let draw = DrawOptions { range: Some(self.common_range(before, after, &picture.draw)?), ..picture.draw };
         // A constant has no range to divide.
         let draw = DrawOptions { range: draw.range.filter(|[low, high]| low < high), ..draw };
-        let (difference, largest) = self.difference(before, after)?;
+        let (difference, largest) = self.difference(before, after, draw.missing)?;
         let largest = options.largest_difference.unwrap_or(largest);
         let change = options.difference(if largest > 0.0 { Some([-largest, largest]) } else { None });
         let lists =
@@ -104,18 +104,19 @@ impl Scene {
     }
 
     /// The given range, or that of both fields.
-    fn common_range(&self, before: &[f64], after: &[f64], given: Option<[f64; 2]>) -> Result<[f64; 2], FieldError> {
-        let connectivity = self.mesh.connectivity();
-        let (f, g) = (value_range(connectivity, before)?, value_range(connectivity, after)?);
-        let range = given.unwrap_or([f.min.min(g.min), f.max.max(g.max)]);
-        if (range[1] - range[0]).is_finite() { Ok(range) } else { Err(FieldError::RangeOverflow {}) }
+    fn common_range(&self, before: &[f64], after: &[f64], options: &DrawOptions<'_>) -> Result<[f64; 2], Error> {
+        let range_of = |values| Ok::<_, Error>(ScalarField::with_missing(&self.mesh, values, options.missing)?.range());
+        let (f, g) = (range_of(before)?, range_of(after)?);
+        let range = options.range.unwrap_or([f.min.min(g.min), f.max.max(g.max)]);
+        if (range[1] - range[0]).is_finite() { Ok(range) } else { Err(FieldError::RangeOverflow {}.into()) }
     }
 
-    /// after − before, and the largest difference on the surface.
-    fn difference(&self, before: &[f64], after: &[f64]) -> Result<(Vec<f64>, f64), FieldError> {
+    /// after − before, and the largest difference on the surface. What misses a value in either has none in the difference.
+    fn difference(&self, before: &[f64], after: &[f64], missing: Missing) -> Result<(Vec<f64>, f64), FieldError> {
         let difference: Vec<f64> = before.iter().zip(after).map(|(f, g)| g - f).collect();
         let largest = self.surface.vertices.iter().map(|&v| difference[v as usize].abs()).fold(0.0, f64::max);
-        if (2.0 * largest).is_finite() && difference.iter().all(|x| x.is_finite()) {
+        let is_known = |x: &f64| x.is_finite() || (missing == Missing::Omit && x.is_nan());
+        if (2.0 * largest).is_finite() && difference.iter().all(is_known) {
             Ok((difference, largest))
         } else {
             Err(FieldError::RangeOverflow {})
@@ -123,8 +124,8 @@ impl Scene {
     }
 }
 
-/// Draws a field on a mesh, as a PNG file: a shaded surface with the colours of the values, level sets, critical points, on demand
-/// bands and the Morse complex, and a bar that says which colour is which value.
+/// Draws a field on a mesh, as a PNG file: a shaded surface with the colors of the values, level sets, critical points, on demand
+/// bands and the Morse complex, and a bar that says which color is which value.
 ///
 /// # Properties
 /// The same bytes on every platform. Red, green and blue, eight bits each, on white. Level sets are drawn within a pixel of where
@@ -140,8 +141,8 @@ pub fn snapshot(mesh: &TriMesh, values: &[f64], options: &SnapshotOptions<'_>) -
     Scene::new(mesh).snapshot(values, options)
 }
 
-/// Draws two fields on a mesh and after − before, side by side, as one PNG file: the two with the same colours and levels, the
-/// difference with colours around zero and nothing else.
+/// Draws two fields on a mesh and after − before, side by side, as one PNG file: the two with the same colors and levels, the
+/// difference with colors around zero and nothing else.
 ///
 /// # Errors
 /// As [`snapshot`], and `InapplicableOption` for lines or points of one field.

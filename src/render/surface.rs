@@ -159,13 +159,13 @@ impl Surface {
 /// Where the mesh is, and how large.
 struct Extent {
     center: [f64; 3],
-    /// From the centre to the farthest vertex.
+    /// From the center to the farthest vertex.
     size: f64,
     widths: [f64; 3],
 }
 
 impl Extent {
-    /// Of the vertices that belong to a triangle.
+    /// The bounding box of the vertices that belong to a triangle.
     fn of(mesh: &TriMesh) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let vertices = || mesh.connectivity().triangles().as_flattened().iter().map(|&v| mesh.position(v));

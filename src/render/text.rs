@@ -141,7 +141,7 @@ struct Grid {
 impl Grid {
     fn new(size: f64, left: f64, baseline: f64) -> Self {
         let (unit, stroke) = (unit(size), STROKE * size);
-        // Below the baseline strokes end on a whole pixel, above likewise.
+        // Strokes end on a whole pixel, below the baseline and above it.
         let half = 0.5 * stroke;
         let base = (baseline + half).round() - half;
         let lines = font::LINES.map(|line| {

@@ -192,7 +192,7 @@ impl Decimal {
         Self { digits: -self.digits, ..self }
     }
 
-    /// Of the first digit: 0 for units, −1 for tenths.
+    /// The place of the first digit: 0 for units, −1 for tenths.
     fn place(self) -> i32 {
         if self.digits == 0 { LEAST } else { self.exponent + self.digits.unsigned_abs().ilog10() as i32 }
     }
@@ -214,7 +214,7 @@ impl Decimal {
     }
 }
 
-/// Of ten. Larger ones than 10^18 are asked for only to divide by them what is smaller than that.
+/// A power of ten. Larger ones than 10^18 are asked for only to divide by them what is smaller than that.
 fn power(exponent: i32) -> i64 {
     (0..exponent.min(18)).fold(1, |power, _| 10 * power)
 }

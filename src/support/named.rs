@@ -13,7 +13,7 @@ pub(crate) trait Named: Copy + 'static {
 }
 
 /// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
-/// files are, `any case` stands before them.
+/// files are, `any case` stands before them. The feature `serde` writes them as their names.
 ///
 /// ```ignore
 /// named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }
@@ -45,6 +45,13 @@ macro_rules! named {
             pub fn from_name(name: &str) -> Option<Self> {
                 let same: fn(&str, &str) -> bool = $same;
                 Self::ALL.iter().copied().find(|choice| same(choice.name(), name))
+            }
+        }
+
+        #[cfg(feature = "serde")]
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> core::result::Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.name())
             }
         }
 

@@ -147,7 +147,7 @@ export class Page {
     }
   }
 
-  /** How many distinct colours a view shows, and how much of it is not background. */
+  /** How many distinct colors a view shows, and how much of it is not background. */
   async look(side) {
     const picture = await this.picture(side);
     return this.page.evaluate(async (base64) => {
@@ -156,13 +156,13 @@ export class Page {
       const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
       context.drawImage(bitmap, 0, 0);
       const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-      const colours = new Set();
+      const colors = new Set();
       let covered = 0;
       for (let k = 0; k < data.length; k += 4) {
-        colours.add((data[k] << 16) | (data[k + 1] << 8) | data[k + 2]);
+        colors.add((data[k] << 16) | (data[k + 1] << 8) | data[k + 2]);
         if (data[k] < 240 || data[k + 1] < 240 || data[k + 2] < 240) covered += 4 / data.length;
       }
-      return { colours: colours.size, covered };
+      return { colors: colors.size, covered };
     }, picture.toString('base64'));
   }
 

@@ -56,8 +56,8 @@ describe('opening', () => {
   test('paints both views', async () => {
     await openTorus();
     for (const side of ['before', 'after']) {
-      const { colours, covered } = await page.look(side);
-      expect(colours).toBeGreaterThan(500);
+      const { colors, covered } = await page.look(side);
+      expect(colors).toBeGreaterThan(500);
       expect(covered).toBeGreaterThan(0.2);
     }
   });
@@ -65,7 +65,7 @@ describe('opening', () => {
   test('fits a phone', async () => {
     expect(await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true })).toBe('ready');
     expect(await page.overflow()).toEqual([]);
-    for (const side of ['before', 'after']) expect((await page.look(side)).colours).toBeGreaterThan(500);
+    for (const side of ['before', 'after']) expect((await page.look(side)).colors).toBeGreaterThan(500);
     await page.page.screenshot({ path: inRoot('artifacts/page-narrow.png'), fullPage: true });
   });
 
@@ -192,9 +192,9 @@ describe('controls', () => {
     await page.at('show-glyphs').uncheck();
     await page.at('show-levels').uncheck();
     const bare = await page.look('before');
-    expect(bare.colours).toBeLessThan(all.colours);
+    expect(bare.colors).toBeLessThan(all.colors);
     await page.at('show-edges').check();
-    expect((await page.look('before')).colours).not.toBe(bare.colours);
+    expect((await page.look('before')).colors).not.toBe(bare.colors);
   });
 
   test('numbers typed in are kept within range', async () => {
@@ -266,7 +266,7 @@ describe('files', () => {
     expect(await page.after(() => page.at('open-mesh').setInputFiles(file))).toBe('ready');
     expect(await page.at('field').locator('option:checked').textContent()).toBe('x coordinate');
     expect(await page.text('facts')).toMatch(/6 vertices.*8 triangles/);
-    expect((await page.look('before')).colours).toBeGreaterThan(100);
+    expect((await page.look('before')).colors).toBeGreaterThan(100);
   });
 
   test('a dropped field is added to the mesh, one of the wrong length is refused with both numbers', async () => {

@@ -9,10 +9,10 @@ import { openTorus, page, torus } from './opened.js';
 const VIEW = [0.15, 0.8, 0.8];
 const DIRECTION = [VIEW[0], -VIEW[2], VIEW[1]];
 const LEVELS = 14;
-/** Pixels of the squares whose mean colours are compared: anti-aliased edges differ, and their means do not. */
+/** Pixels of the squares whose mean colors are compared: anti-aliased edges differ, and their means do not. */
 const SQUARE = 8;
 /**
- * Of the mean difference of the three colours, 0 to 255, over the squares in which something is drawn. It is between 0.5 and 1.0 for
+ * Of the mean difference of the three colors, 0 to 255, over the squares in which something is drawn. It is between 0.5 and 1.0 for
  * what is compared here: edges, and lines whose corners the pictures round. The least of what is wrong below comes to 1.8.
  */
 const DRIFT = 1.4;

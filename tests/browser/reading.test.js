@@ -310,8 +310,8 @@ describe('where simplification is impossible', () => {
 describe('on the surface', () => {
   for (const [what, on, off] of [
     ['the Morse complex', () => page.at('show-complex').check(), () => page.at('show-complex').uncheck()],
-    ['basins of minima', () => colourBy('minima'), () => colourBy('value')],
-    ['basins of maxima', () => colourBy('maxima'), () => colourBy('value')],
+    ['basins of minima', () => colorBy('minima'), () => colorBy('value')],
+    ['basins of maxima', () => colorBy('maxima'), () => colorBy('value')],
     ['levels at saddles', () => levelsAt('saddles'), () => levelsAt('even')],
   ]) {
     test(`${what} come and go`, async () => {
@@ -329,12 +329,12 @@ describe('on the surface', () => {
     });
   }
 
-  const colourBy = (value) => page.at('colouring').selectOption(value);
+  const colorBy = (value) => page.at('coloring').selectOption(value);
   const levelsAt = (value) => page.at('level-places').selectOption(value);
 
   test('the threshold decides which basins and separatrices there are', async () => {
     await openTorus();
-    await page.after(() => page.at('colouring').selectOption('minima'));
+    await page.after(() => page.at('coloring').selectOption('minima'));
     await page.after(() => page.at('show-complex').check());
     expect(await page.text('legend-what')).toMatch(new RegExp(`^${kept(0.1)[0]} → \\d+ basins of minima`));
     const picture = await page.picture('before');
@@ -343,13 +343,13 @@ describe('on the surface', () => {
     expect((await page.picture('before')).equals(picture)).toBe(false);
   });
 
-  test('bands have one colour between two levels', async () => {
+  test('bands have one color between two levels', async () => {
     await openTorus();
     for (const id of ['show-glyphs', 'show-levels']) await page.at(id).uncheck();
     const smooth = await page.look('after');
     await page.after(() => page.at('show-bands').check());
     const banded = await page.look('after');
-    expect(banded.colours).toBeLessThan(0.7 * smooth.colours);
+    expect(banded.colors).toBeLessThan(0.7 * smooth.colors);
     expect(banded.covered).toBeCloseTo(smooth.covered, 2);
   });
 });
@@ -359,7 +359,7 @@ describe('on a phone', () => {
     await openTorus({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
     await simplify();
     await page.after(() => page.at('show-complex').check());
-    await page.after(() => page.at('colouring').selectOption('minima'));
+    await page.after(() => page.at('coloring').selectOption('minima'));
     expect(await page.overflow()).toEqual([]);
     expect(await page.page.evaluate(() => document.documentElement.scrollWidth)).toBe(390);
     for (const id of ['curve', 'diagram']) expect((await area(id)).width, id).toBeGreaterThan(250);

@@ -155,11 +155,11 @@ describe('methods', () => {
 });
 
 describe('differences', () => {
-  test('colour the right side alone, with a legend of their own', async () => {
+  test('color the right side alone, with a legend of their own', async () => {
     await openTorus();
     expect(await page.at('difference').isVisible()).toBe(false);
     const [before, after] = [await page.picture('before'), await page.picture('after')];
-    await page.choose('colouring', 'difference');
+    await page.choose('coloring', 'difference');
     expect((await page.picture('before')).equals(before)).toBe(true);
     expect((await page.picture('after')).equals(after)).toBe(false);
     const { values } = torus.smoothed('tikhonov', { epsilon: 0.1 });
@@ -170,19 +170,19 @@ describe('differences', () => {
     const closer = number(await page.at('difference').locator('#difference-high').textContent());
     expect(closer).toBeLessThan(largest);
     await page.type('epsilon-number', 0.1);
-    await page.choose('colouring', 'value');
+    await page.choose('coloring', 'value');
     expect(await page.at('difference').isVisible()).toBe(false);
     expect((await page.picture('after')).equals(after)).toBe(true);
   });
 
   test('are not computed anew, and nor is the field, for what has no part in them', async () => {
     await openTorus();
-    await page.choose('colouring', 'difference');
+    await page.choose('coloring', 'difference');
     // A smoothing that was repeated would have written the report again.
     await page.at('report').evaluate((report) => report.firstElementChild.classList.add('same'));
     await page.after(() => page.slide('delta', [0.05]));
     await page.after(() => page.slide('persistence', [0.5]));
-    await page.choose('colouring', 'minima');
+    await page.choose('coloring', 'minima');
     expect(await page.at('report').locator('.same').count()).toBe(1);
     await page.choose('metric', 'lumped');
     expect(await page.at('report').locator('.same').count()).toBe(0);
@@ -209,7 +209,7 @@ describe('at any width', () => {
   ]) {
     test(`on ${what} nothing sticks out`, async () => {
       await openTorus(options);
-      await page.choose('colouring', 'difference');
+      await page.choose('coloring', 'difference');
       for (const method of ['interpolate', 'lowPass', 'bilateral', 'leastSquares']) {
         await page.choose('method', method);
         for (const tab of ['tab-points', 'tab-report', 'tab-plots']) {

@@ -205,14 +205,37 @@ fn constraints(options: DeltaOptions) -> Constraints<'static> {
 
 fn smoothed(smoother: &mut Smoother, f: &[f64], method: &Method) -> Result<Smoothed, Error> {
     match *method {
-        Method::Tikhonov(metric) => smoother
-            .tikhonov(f, &TikhonovOptions { epsilon: 0.05, metric, mass_scale: MassScale::MeanOne, channels: 1 }),
-        Method::Constrained(Some(energy), options) => {
-            smoother.interpolate(f, &InterpolateOptions { constraints: constraints(options), energy, channels: 1 })
-        }
+        Method::Tikhonov(metric) => smoother.tikhonov(
+            f,
+            &TikhonovOptions {
+                epsilon: 0.05,
+                metric,
+                mass_scale: MassScale::MeanOne,
+                channels: 1,
+                ..TikhonovOptions::default()
+            },
+        ),
+        Method::Constrained(Some(energy), options) => smoother.interpolate(
+            f,
+            &InterpolateOptions {
+                constraints: constraints(options),
+                energy,
+                channels: 1,
+                ..InterpolateOptions::default()
+            },
+        ),
         Method::Constrained(None, options) => {
             let constraints = constraints(options);
-            smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon: 0.05, weights: None, channels: 1 })
+            smoother.least_squares(
+                f,
+                &LeastSquaresOptions {
+                    constraints,
+                    epsilon: 0.05,
+                    weights: None,
+                    channels: 1,
+                    ..LeastSquaresOptions::default()
+                },
+            )
         }
     }
 }

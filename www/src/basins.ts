@@ -1,27 +1,27 @@
-/** Colours for basins, so that neighbours differ and a basin has the same colour on both sides of the page. */
+/** Colors for basins, so that neighbours differ and a basin has the same color on both sides of the page. */
 
-/** How many colours there are; colormap.ts has them. */
+/** How many colors there are; colormap.ts has them. */
 export const BASIN_COLOURS = 12;
 /** Of a vertex in no triangle. */
 const NOWHERE = 0xffffffff;
 export const NO_COLOUR = 255;
 
-export interface BasinColours {
-  /** For each vertex the number of its colour. */
-  colours: Uint8Array<ArrayBuffer>;
-  /** The colour of each basin, by its extremum. */
+export interface BasinColors {
+  /** For each vertex the number of its color. */
+  colors: Uint8Array<ArrayBuffer>;
+  /** The color of each basin, by its extremum. */
   byExtremum: Map<number, number>;
 }
 
 /**
- * Greedily, the basins with most neighbours first. Each takes the colour that it has in `preferred`, where no neighbour has it,
- * else the rarest free one. More neighbours than colours is possible on a mesh with handles: then one colour repeats.
+ * Greedily, the basins with most neighbours first. Each takes the color that it has in `preferred`, where no neighbour has it,
+ * else the rarest free one. More neighbours than colors is possible on a mesh with handles: then one color repeats.
  */
-export function colourBasins(
+export function colorBasins(
   labels: Uint32Array,
   triangles: Uint32Array,
   preferred: ReadonlyMap<number, number> = new Map(),
-): BasinColours {
+): BasinColors {
   const neighbours = new Map<number, Set<number>>();
   for (const label of labels) if (label !== NOWHERE && !neighbours.has(label)) neighbours.set(label, new Set());
   const join = (a: number, b: number): void => {
@@ -41,14 +41,14 @@ export function colourBasins(
   for (const [extremum, around] of order) {
     const taken = new Set([...around].map((other) => byExtremum.get(other)));
     const wish = preferred.get(extremum);
-    let colour = wish !== undefined && !taken.has(wish) ? wish : -1;
-    if (colour < 0) {
+    let color = wish !== undefined && !taken.has(wish) ? wish : -1;
+    if (color < 0) {
       const free = uses.map((_, k) => k).filter((k) => !taken.has(k));
       const choice = free.length > 0 ? free : uses.map((_, k) => k);
-      colour = choice.reduce((best, k) => (uses[k]! < uses[best]! ? k : best));
+      color = choice.reduce((best, k) => (uses[k]! < uses[best]! ? k : best));
     }
-    byExtremum.set(extremum, colour);
-    uses[colour]! += 1;
+    byExtremum.set(extremum, color);
+    uses[color]! += 1;
   }
-  return { colours: Uint8Array.from(labels, (label) => byExtremum.get(label) ?? NO_COLOUR), byExtremum };
+  return { colors: Uint8Array.from(labels, (label) => byExtremum.get(label) ?? NO_COLOUR), byExtremum };
 }

@@ -1,12 +1,12 @@
-/** Textures of a draw list's colours, and the colours of basins. */
+/** Textures of a draw list's colors, and the colors of basins. */
 import { BufferAttribute, Color, DataTexture, LinearFilter, NearestFilter, SRGBColorSpace } from 'three';
 import { BASIN_COLOURS } from './basins';
 
-/** `stepped`: colours with steps between them, which must not be blurred. */
-export function textureOf(colours: Uint8Array, stepped: boolean): DataTexture {
-  const count = colours.length / 3;
+/** `stepped`: colors with steps between them, which must not be blurred. */
+export function textureOf(colors: Uint8Array, stepped: boolean): DataTexture {
+  const count = colors.length / 3;
   const bytes = new Uint8Array(4 * count).fill(255);
-  for (let k = 0; k < count; k++) bytes.set(colours.subarray(3 * k, 3 * k + 3), 4 * k);
+  for (let k = 0; k < count; k++) bytes.set(colors.subarray(3 * k, 3 * k + 3), 4 * k);
   const texture = new DataTexture(bytes, count, 1);
   texture.colorSpace = SRGBColorSpace;
   texture.magFilter = texture.minFilter = stepped ? NearestFilter : LinearFilter;
@@ -17,7 +17,7 @@ export function textureOf(colours: Uint8Array, stepped: boolean): DataTexture {
   return texture;
 }
 
-/** Texture coordinates that look shades up. The colour is looked up for every pixel, not mixed between the corners' colours. */
+/** Texture coordinates that look shades up. The color is looked up for every pixel, not mixed between the corners' colors. */
 export function along(shades: Float32Array): BufferAttribute {
   const uv = new Float32Array(2 * shades.length);
   for (let i = 0; i < shades.length; i++) {
@@ -47,10 +47,10 @@ const BASINS = [
 ] as const satisfies { length: typeof BASIN_COLOURS };
 const NOWHERE = '#e8ecf3';
 
-/** Linear red, green and blue of each corner, as the graphics card mixes them, from the numbers of the vertices' colours. */
-export function basinColours(numbers: Uint8Array, vertices: Uint32Array): Float32Array {
+/** Linear red, green and blue of each corner, as the graphics card mixes them, from the numbers of the vertices' colors. */
+export function basinColors(numbers: Uint8Array, vertices: Uint32Array): Float32Array {
   const palette = [...BASINS, NOWHERE].map((text) => new Color().setStyle(text).toArray());
-  const colours = new Float32Array(3 * vertices.length);
-  vertices.forEach((vertex, i) => colours.set(palette[Math.min(numbers[vertex]!, BASINS.length)]!, 3 * i));
-  return colours;
+  const colors = new Float32Array(3 * vertices.length);
+  vertices.forEach((vertex, i) => colors.set(palette[Math.min(numbers[vertex]!, BASINS.length)]!, 3 * i));
+  return colors;
 }

@@ -3,7 +3,7 @@ import type { Link } from 'morse-smooth';
 import type { Colormap } from 'morse-smooth/snapshot';
 import { clamp, element, input, select } from './dom';
 import type { Example } from './examples';
-import type { Colouring, FieldEntry, LevelPlaces, Settings } from './protocol';
+import type { Coloring, FieldEntry, LevelPlaces, Settings } from './protocol';
 import { SmoothingControls } from './smoothing/controls';
 import type { Rule } from './smoothing/settings';
 import type { Layers } from './viewer';
@@ -46,7 +46,7 @@ export class Controls {
   private readonly link = select('link');
   private readonly persistence = input('persistence');
   private readonly persistenceNumber = input('persistence-number');
-  private readonly colouring = select('colouring');
+  private readonly coloring = select('coloring');
   private readonly levelPlaces = select('level-places');
   private readonly colormap = select('colormap');
   private readonly bands = input('show-bands');
@@ -79,7 +79,7 @@ export class Controls {
       levels: Number(this.levels.value),
       levelPlaces: this.levelPlaces.value as LevelPlaces,
       persistence: Number(this.persistenceNumber.value),
-      colouring: this.colouring.value as Colouring,
+      coloring: this.coloring.value as Coloring,
       colormap: this.colormap.value as Colormap,
       bands: this.bands.checked,
       complex: this.complex.checked,
@@ -91,7 +91,7 @@ export class Controls {
     this.link.value = settings.link;
     this.levels.value = String(settings.levels);
     this.levelPlaces.value = settings.levelPlaces;
-    this.colouring.value = settings.colouring;
+    this.coloring.value = settings.coloring;
     this.colormap.value = settings.colormap;
     this.bands.checked = settings.bands;
     this.complex.checked = settings.complex;
@@ -167,8 +167,8 @@ export class Controls {
       levels: levels.checked,
       edges: edges.checked,
       complex: this.complex.checked,
-      basins: this.colouring.value === 'minima' || this.colouring.value === 'maxima',
-      difference: this.colouring.value === 'difference',
+      basins: this.coloring.value === 'minima' || this.coloring.value === 'maxima',
+      difference: this.coloring.value === 'difference',
     };
   }
 
@@ -230,10 +230,10 @@ export class Controls {
   }
 
   private wireDisplay(): void {
-    const { events, complex, colouring } = this;
+    const { events, complex, coloring } = this;
     for (const box of this.layerBoxes) box.addEventListener('change', () => this.showLayers());
     // These two have to be computed, too.
-    for (const choice of [complex, colouring]) {
+    for (const choice of [complex, coloring]) {
       choice.addEventListener('change', () => {
         this.showLayers();
         events.settings();

@@ -26,9 +26,9 @@ export class CurveLayer {
   }
 
   /** Six numbers a segment. */
-  set(segments: Float32Array, { colour, width, opacity, casing }: Stroke): void {
-    this.draw(this.line, segments, colour, width, opacity);
-    this.draw(this.casing, casing ? segments : NOTHING, casing?.colour ?? 0, casing?.width ?? 0, 1);
+  set(segments: Float32Array, { color, width, opacity, casing }: Stroke): void {
+    this.draw(this.line, segments, color, width, opacity);
+    this.draw(this.casing, casing ? segments : NOTHING, casing?.color ?? 0, casing?.width ?? 0, 1);
   }
 
   clear(): void {
@@ -45,13 +45,13 @@ export class CurveLayer {
     this.group.visible = isShown;
   }
 
-  private draw(lines: LineSegments2, segments: Float32Array, colour: number, width: number, opacity: number): void {
+  private draw(lines: LineSegments2, segments: Float32Array, color: number, width: number, opacity: number): void {
     lines.geometry.dispose();
     lines.geometry = new LineSegmentsGeometry();
     lines.visible = segments.length > 0;
     if (!lines.visible) return;
     lines.geometry.setPositions(segments);
-    lines.material.color.setHex(colour);
+    lines.material.color.setHex(color);
     lines.material.linewidth = width;
     lines.material.opacity = opacity;
   }

@@ -1,6 +1,6 @@
 /**
  * The worker's side of pictures: what to draw, as `morse-smooth/snapshot` says it, for the page's viewer; and the pictures that it
- * makes itself. Colours, shapes, widths and sizes are its business, and neither the worker's nor the viewer's.
+ * makes itself. Colors, shapes, widths and sizes are its business, and neither the worker's nor the viewer's.
  */
 import type { DrawList, Lines, Scene, SnapshotOptions } from 'morse-smooth/snapshot';
 import type { Look, Part, PictureView, Settings } from './protocol';
@@ -25,28 +25,28 @@ export const levelLines = ({ lines }: DrawList): Lines | null => lines.find(({ k
 
 export const complexLines = ({ lines }: DrawList): Lines[] => lines.filter(({ kind }) => kind !== 'levels');
 
-/** A field without a range colours everything alike. */
+/** A field without a range colors everything alike. */
 export const rangeOption = ([low, high]: readonly [number, number]): { range?: [number, number] } =>
   low < high ? { range: [low, high] } : {};
 
-/** After − before, with the middle of the colours where nothing has changed. */
+/** After − before, with the middle of the colors where nothing has changed. */
 export function differencePart(scene: Scene, before: Float64Array, after: Float64Array): Part {
   const difference = after.map((value, i) => value - before[i]!);
   const largest = difference.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  const { shades, colours } = scene.drawList(difference, {
+  const { shades, colors } = scene.drawList(difference, {
     ...rangeOption([-largest, largest]),
     colormap: DIFFERENCE,
     levels: [],
     criticalPoints: false,
   });
-  return { kind: 'difference', largest, shades, colours };
+  return { kind: 'difference', largest, shades, colors };
 }
 
 /** Everything that a picture is of. */
 export interface Subject {
   before: Float64Array;
   after: Float64Array | null;
-  /** Of the colours: that of the field before. */
+  /** Of the colors: that of the field before. */
   range: [number, number];
   levels: ArrayLike<number>;
   title: string;

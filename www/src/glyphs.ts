@@ -1,6 +1,6 @@
 /**
  * Draws the solids of a draw list, which mark critical points. Each has a rim (the same solid, a little larger, seen from its
- * inside), so that it stands out from any colour of the surface.
+ * inside), so that it stands out from any color of the surface.
  */
 import {
   BackSide,
@@ -53,7 +53,7 @@ export class GlyphLayer {
   private geometries: BufferGeometry[] = [];
   private pairs: { solids: Solids; rim: InstancedMesh; body: InstancedMesh }[] = [];
 
-  /** `rim`: the colour around the glyphs, if it is another. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
+  /** `rim`: the color around the glyphs, if it is another. `ghost`: only what is hidden is seen, faintly. `late`: drawn after such ghosts. */
   constructor(private readonly options: { rim?: number; ghost?: boolean; late?: boolean } = {}) {}
 
   clear(): void {
@@ -90,7 +90,7 @@ export class GlyphLayer {
     }
   }
 
-  private materialsOf({ kind, colour, glow, rim }: Solids): Materials {
+  private materialsOf({ kind, color, glow, rim }: Solids): Materials {
     const { ghost = false, late = false } = this.options;
     const hidden = { transparent: true, opacity: 0.5, depthFunc: GreaterDepth, depthWrite: false };
     const see = ghost ? hidden : { transparent: late };
@@ -99,10 +99,10 @@ export class GlyphLayer {
       rim: new MeshBasicMaterial({ side: BackSide, ...see }),
     };
     this.materials.set(kind, made);
-    made.body.color.setHex(colour);
-    made.body.emissive.setHex(colour);
+    made.body.color.setHex(color);
+    made.body.emissive.setHex(color);
     made.body.emissiveIntensity = glow;
-    made.rim.color.setHex(this.options.rim ?? rim.colour);
+    made.rim.color.setHex(this.options.rim ?? rim.color);
     return made;
   }
 }

@@ -1,4 +1,4 @@
-/** The colour bar: the colours from low to high, the level sets as ticks in it, numbers under it. */
+/** The color bar: the colors from low to high, the level sets as ticks in it, numbers under it. */
 import { element, short } from './dom';
 
 const LABELS = 5;
@@ -16,15 +16,15 @@ export class Legend {
   private range: [number, number] = [0, 1];
   private levels: number[] = [];
   private plain = false;
-  private colours: Uint8Array = PLAIN;
+  private colors: Uint8Array = PLAIN;
 
   constructor() {
     new ResizeObserver(() => this.write()).observe(this.ticks);
   }
 
   /** Red, green and blue at equal steps. */
-  setColours(colours: Uint8Array): void {
-    this.colours = colours;
+  setColors(colors: Uint8Array): void {
+    this.colors = colors;
     this.draw();
   }
 
@@ -35,9 +35,9 @@ export class Legend {
     this.draw();
   }
 
-  /** What colours the surface where it is not the values; the bar is then about the levels alone. */
+  /** What colors the surface where it is not the values; the bar is then about the levels alone. */
   setBasins(what: string | null): void {
-    this.what.textContent = what === null ? 'Colours and levels of' : `${what}; bar: levels`;
+    this.what.textContent = what === null ? 'Colors and levels of' : `${what}; bar: levels`;
     this.name.hidden = what !== null;
     this.plain = what !== null;
     this.draw();
@@ -70,7 +70,7 @@ export class Legend {
 
   private draw(): void {
     const { width, height } = this.bar;
-    drawBar(this.bar, this.plain ? PLAIN : this.colours);
+    drawBar(this.bar, this.plain ? PLAIN : this.colors);
     const context = this.bar.getContext('2d');
     if (!context) return;
     const [low, high] = this.range;
@@ -79,12 +79,12 @@ export class Legend {
   }
 }
 
-export function drawBar(bar: HTMLCanvasElement, colours: Uint8Array): void {
+export function drawBar(bar: HTMLCanvasElement, colors: Uint8Array): void {
   const context = bar.getContext('2d');
-  const last = colours.length / 3 - 1;
+  const last = colors.length / 3 - 1;
   for (let x = 0; context && x < bar.width; x++) {
     const k = 3 * Math.round((last * x) / (bar.width - 1));
-    context.fillStyle = `rgb(${colours[k]} ${colours[k + 1]} ${colours[k + 2]})`;
+    context.fillStyle = `rgb(${colors[k]} ${colors[k + 1]} ${colors[k + 2]})`;
     context.fillRect(x, 0, 1, bar.height);
   }
 }

@@ -1,7 +1,7 @@
 /** The page: joins the controls, the worker, the two views and the plots. What is computed, and when, is the worker's business. */
 import type { SolidSize } from 'morse-smooth/snapshot';
 import { Client } from './client';
-import { Colours } from './colours';
+import { Colors } from './colors';
 import { Controls } from './controls';
 import { element } from './dom';
 import { acceptDrops, isFieldName } from './drop';
@@ -32,7 +32,7 @@ const INITIAL: Settings = {
   levelPlaces: 'even',
   persistence: 0.1,
   overrides: NO_OVERRIDES,
-  colouring: 'value',
+  coloring: 'value',
   colormap: 'viridis',
   bands: false,
   complex: false,
@@ -52,7 +52,7 @@ interface Source {
 const status = new Status();
 const panels = { before: new Panel('before'), after: new Panel('after') };
 if (panels.before.viewer && panels.after.viewer) link(panels.before.viewer, panels.after.viewer);
-const colours = new Colours(panels);
+const colors = new Colors(panels);
 const report = new ReportPanel();
 
 let source: Source | null = null;
@@ -189,8 +189,8 @@ function show(part: Part): void {
       return controls.setFields(part.fields, part.chosen);
     case 'values':
       return showValues(part);
-    case 'colours':
-      return colours.setTable(part.colours, part.bands);
+    case 'colors':
+      return colors.setTable(part.colors, part.bands);
     case 'hierarchy':
       reading.setHierarchy(part.side, part.hierarchy);
       if (part.side === 'before') constraining.setHierarchy(part.hierarchy);
@@ -201,7 +201,7 @@ function show(part: Part): void {
       return constraining.setPairs(part.pairs);
     case 'lines':
       panels[part.side].viewer?.setLines(['levels'], part.lines ? [part.lines] : []);
-      if (part.side === 'before') colours.setLevels(part.levels);
+      if (part.side === 'before') colors.setLevels(part.levels);
       return;
     case 'complex':
       return panels[part.side].viewer?.setLines(['descending', 'ascending'], part.lines);
@@ -209,11 +209,11 @@ function show(part: Part): void {
       paths = new Paths(part.arcs);
       return light(lit);
     case 'basins':
-      return colours.setBasins(part);
+      return colors.setBasins(part);
     case 'constraints':
       return constraining.setFound(part.found);
     case 'difference':
-      return colours.setDifference(part);
+      return colors.setDifference(part);
     case 'report':
       controls.setSaveable(true);
       report.show(part.report);
@@ -242,7 +242,7 @@ function showValues({ side, label, range, shades }: Extract<Part, { kind: 'value
   panels[side].setShades(label, shades);
   if (side === 'after') return;
   paths = null;
-  colours.setField(label, range);
+  colors.setField(label, range);
   controls.setUnits({ width: range[1] - range[0] });
   controls.setDrawable();
   // The field is another one: what stands on the other side belongs to the last.
@@ -253,7 +253,7 @@ function showValues({ side, label, range, shades }: Extract<Part, { kind: 'value
 function clearAfter(text: string): void {
   panels.after.clear(text);
   reading.setHierarchy('after', null);
-  colours.clearDifference();
+  colors.clearDifference();
   clearReport();
   report.clear(text);
   controls.setSaveable(false);
@@ -344,8 +344,8 @@ function complain(code: string, message: string): void {
 
 /** What does not wait for the worker. */
 function showChoices(): void {
-  const { colouring, method, rule } = controls.read();
-  colours.name(colouring);
+  const { coloring, method, rule } = controls.read();
+  colors.name(coloring);
   constraining.setMethod(method, rule);
 }
 

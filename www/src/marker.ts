@@ -8,8 +8,8 @@ import type { Places } from './places';
 
 const BRIGHT = 0xffd21f;
 const RADIUS = 0.03;
-const PATH = { colour: BRIGHT, width: 4, opacity: 1, casing: { colour: 0x10151f, width: 6 } };
-const HIDDEN_PATH = { colour: BRIGHT, width: 2, opacity: 1, casing: null };
+const PATH = { color: BRIGHT, width: 4, opacity: 1, casing: { color: 0x10151f, width: 6 } };
+const HIDDEN_PATH = { color: BRIGHT, width: 2, opacity: 1, casing: null };
 
 /** Entry k of both arrays is about the same point. */
 export interface LitPoints {

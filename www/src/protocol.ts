@@ -9,8 +9,8 @@ import type { Camera, Colormap, DrawList, Lines, Solids, Surface } from 'morse-s
 import type { Method, Smoothing } from './smoothing/settings';
 
 export type Side = 'before' | 'after';
-/** What colours the surface: the values, the basins of one kind of extremum or, on the right, what has changed. */
-export type Colouring = 'value' | 'minima' | 'maxima' | 'difference';
+/** What colors the surface: the values, the basins of one kind of extremum or, on the right, what has changed. */
+export type Coloring = 'value' | 'minima' | 'maxima' | 'difference';
 /** Where the level sets are: evenly over the range, or on either side of saddles. */
 export type LevelPlaces = 'even' | 'saddles';
 
@@ -32,10 +32,10 @@ export interface Settings extends Smoothing {
   /** Pairs of persistence above it are kept; relative to the range. */
   persistence: number;
   overrides: Overrides;
-  colouring: Colouring;
-  /** Of the colours by value. */
+  coloring: Coloring;
+  /** Of the colors by value. */
   colormap: Colormap;
-  /** One colour between two levels. */
+  /** One color between two levels. */
   bands: boolean;
   /** Whether the Morse complex is shown, and so has to be computed. */
   complex: boolean;
@@ -165,10 +165,10 @@ export type Request =
 export type Part =
   | { kind: 'mesh'; summary: MeshSummary; look: Look }
   | { kind: 'fields'; fields: FieldEntry[]; chosen: string }
-  /** A new field: whatever was shown as its smoothed version is out of date. `range`: of the colours; `shades`: see `DrawList`. */
+  /** A new field: whatever was shown as its smoothed version is out of date. `range`: of the colors; `shades`: see `DrawList`. */
   | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array }
   /** Of the field before, for both sides: see `DrawList`. */
-  | { kind: 'colours'; colours: Uint8Array; bands: boolean }
+  | { kind: 'colors'; colors: Uint8Array; bands: boolean }
   /** `counts` and `solids`: at δ = 0. */
   | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy; solids: Solids[] }
   | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
@@ -177,12 +177,12 @@ export type Part =
   | { kind: 'complex'; side: Side; lines: Lines[] }
   /** Of the field before. */
   | { kind: 'arcs'; arcs: Arcs }
-  /** `colours`: for each vertex the number of a colour; 255 where it belongs to no basin. */
-  | { kind: 'basins'; side: Side; colours: Uint8Array<ArrayBuffer>; count: number }
+  /** `colors`: for each vertex the number of a color; 255 where it belongs to no basin. */
+  | { kind: 'basins'; side: Side; colors: Uint8Array<ArrayBuffer>; count: number }
   /** Of the methods with constraints. */
   | { kind: 'constraints'; found: Found }
-  /** After − before: `largest` without its sign, in units of the field; the middle of the colours is where nothing has changed. */
-  | { kind: 'difference'; largest: number; shades: Float32Array; colours: Uint8Array }
+  /** After − before: `largest` without its sign, in units of the field; the middle of the colors is where nothing has changed. */
+  | { kind: 'difference'; largest: number; shades: Float32Array; colors: Uint8Array }
   | { kind: 'report'; report: AfterReport }
   | { kind: 'unsmoothed'; reason: Unsmoothed }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };

@@ -1,5 +1,5 @@
 /**
- * Constrained vertices: a ring around each, dark within white, so that it stands out from any colour of the surface and is
+ * Constrained vertices: a ring around each, dark within white, so that it stands out from any color of the surface and is
  * none of the solids that mark critical points. The vertices next to them are small dark squares, where there are not too many.
  */
 import {

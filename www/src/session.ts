@@ -8,12 +8,12 @@ import { writeMesh } from 'morse-smooth';
 import type { MeshFile, PersistencePairs, TriMesh } from 'morse-smooth';
 import { Scene } from 'morse-smooth/snapshot';
 import type { Solids } from 'morse-smooth/snapshot';
-import { colourBasins } from './basins';
+import { colorBasins } from './basins';
 import { complexLines, differencePart, levelLines, lookOf, pictureOf, rangeOption } from './drawing';
 import { Refusal } from './failure';
 import { arcsOf, hierarchyOf, levelsOf, pairsPart } from './findings';
 import { meanEdgeOf, rangeOf } from './measures';
-import type { Colouring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
+import type { Coloring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
 import { Methods } from './smoothing/methods';
 import {
@@ -51,8 +51,8 @@ export class Session {
   private found: Found | null = null;
   /** Where the lines on both sides are. */
   private levels: number[] = [];
-  /** The colours of the basins before, by their extrema. */
-  private basinColours: ReadonlyMap<number, number> = new Map();
+  /** The colors of the basins before, by their extrema. */
+  private basinColors: ReadonlyMap<number, number> = new Map();
   /** Key of a smoothing that is not to be tried again, since it took too long. */
   private leftOut: string | null = null;
   /** Key of the settings behind each thing that the page holds. */
@@ -159,7 +159,7 @@ export class Session {
       keys.push([slot, key]);
       return true;
     };
-    let { pairs, found, levels, basinColours } = this;
+    let { pairs, found, levels, basinColors } = this;
 
     const isNew = isDue('values', field);
     const hierarchy = isDue('before.hierarchy', `${field} ${wanted.link}`)
@@ -173,10 +173,10 @@ export class Session {
       found = findConstraints(this.mesh, wanted, values, pairs);
       parts.push({ kind: 'constraints', found: copied(found) });
     }
-    const { complex, colouring, colormap, bands, persistence } = wanted;
+    const { complex, coloring, colormap, bands, persistence } = wanted;
     const lines = isDue('before.lines', linesKey(field, wanted)) ? levelsOf(this.mesh, values, pairs, wanted) : null;
     const separatrices = complex && isDue('before.complex', `${field} ${persistence}`) ? { persistence } : null;
-    const isPainted = isDue('colours', `${colormap} ${bands ? linesKey(field, wanted) : ''}`);
+    const isPainted = isDue('colors', `${colormap} ${bands ? linesKey(field, wanted) : ''}`);
     if (isNew || hierarchy || lines || separatrices || isPainted) {
       const list = this.scene.drawList(values, {
         colormap,
@@ -185,27 +185,27 @@ export class Session {
         criticalPoints: hierarchy ?? false,
         morseComplex: separatrices ? this.mesh.morseComplex(values, { ...separatrices, paths: 'merged' }) : false,
       });
-      const { range, shades, colours, solids } = list;
+      const { range, shades, colors, solids } = list;
       if (lines) levels = [...list.levels];
       const drawn: Part[] = [];
       if (isNew) drawn.push({ kind: 'values', side: 'before', label: this.labelOf(field), range, shades });
-      if (isPainted) drawn.push({ kind: 'colours', colours, bands });
+      if (isPainted) drawn.push({ kind: 'colors', colors, bands });
       if (hierarchy) drawn.push(this.hierarchyPart('before', values, hierarchy, solids));
       if (lines) drawn.push({ kind: 'lines', side: 'before', lines: levelLines(list), levels });
       if (separatrices) drawn.push({ kind: 'complex', side: 'before', lines: complexLines(list) });
       // The values come before all that is about them.
       parts.unshift(...drawn);
     }
-    if (isByBasins(colouring) && isDue('before.basins', `${field} ${persistence} ${colouring}`)) {
-      const { part, byExtremum } = this.basins('before', values, colouring, persistence);
-      basinColours = byExtremum;
+    if (isByBasins(coloring) && isDue('before.basins', `${field} ${persistence} ${coloring}`)) {
+      const { part, byExtremum } = this.basins('before', values, coloring, persistence);
+      basinColors = byExtremum;
       parts.push(part);
     }
     if (wanted.paths && isDue('before.arcs', field)) parts.push({ kind: 'arcs', arcs: arcsOf(this.mesh, values) });
 
     announce?.();
     if (keys.some(([slot]) => slot === 'values')) this.forgetAfter();
-    Object.assign(this, { pairs, found, levels, basinColours });
+    Object.assign(this, { pairs, found, levels, basinColors });
     for (const [slot, key] of keys) this.sent.set(slot, key);
     parts.forEach(send);
     // What belongs to the other side is still what it was.
@@ -234,14 +234,14 @@ export class Session {
       keys.push([slot, slotKey]);
       return true;
     };
-    const { complex, colouring, persistence } = wanted;
+    const { complex, coloring, persistence } = wanted;
     const isNew = isDue('after.values', key);
     const hierarchy = isDue('after.hierarchy', `${key} ${wanted.link}`) ? hierarchyOf(this.mesh, values, wanted) : null;
     const hasLines = isDue('after.lines', `${key} ${linesKey(field, wanted)}`);
     const hasComplex = complex && isDue('after.complex', key);
     if (isNew || hierarchy || hasLines || hasComplex) {
       const list = this.scene.drawList(values, {
-        // Coloured by the range of the input, so that a loss of amplitude shows.
+        // Colored by the range of the input, so that a loss of amplitude shows.
         ...rangeOption(rangeOf(before)),
         levels: hasLines ? this.levels : [],
         criticalPoints: hierarchy ?? false,
@@ -253,10 +253,10 @@ export class Session {
       if (hasLines) parts.push({ kind: 'lines', side: 'after', lines: levelLines(list), levels: this.levels });
       if (hasComplex) parts.push({ kind: 'complex', side: 'after', lines: complexLines(list) });
     }
-    // The colours follow those on the left, which depend on the threshold.
-    if (isByBasins(colouring) && isDue('after.basins', `${key} ${persistence} ${colouring}`))
-      parts.push(this.basins('after', values, colouring, 0).part);
-    if (colouring === 'difference' && isDue('after.difference', key))
+    // The colors follow those on the left, which depend on the threshold.
+    if (isByBasins(coloring) && isDue('after.basins', `${key} ${persistence} ${coloring}`))
+      parts.push(this.basins('after', values, coloring, 0).part);
+    if (coloring === 'difference' && isDue('after.difference', key))
       parts.push(differencePart(this.scene, before, values));
     for (const [slot, slotKey] of keys) this.sent.set(slot, slotKey);
     parts.forEach(send);
@@ -295,15 +295,15 @@ export class Session {
     return { kind: 'hierarchy', side, counts, hierarchy, solids };
   }
 
-  private basins(side: Side, values: Float64Array, colouring: 'minima' | 'maxima', persistence: number) {
+  private basins(side: Side, values: Float64Array, coloring: 'minima' | 'maxima', persistence: number) {
     const found = this.mesh.basins(values, { persistence });
-    const labels = colouring === 'minima' ? found.descending : found.ascending;
-    const { colours, byExtremum } = colourBasins(
+    const labels = coloring === 'minima' ? found.descending : found.ascending;
+    const { colors, byExtremum } = colorBasins(
       labels,
       this.triangles,
-      side === 'after' ? this.basinColours : undefined,
+      side === 'after' ? this.basinColors : undefined,
     );
-    const part: Part = { kind: 'basins', side, colours, count: byExtremum.size };
+    const part: Part = { kind: 'basins', side, colors, count: byExtremum.size };
     return { part, byExtremum };
   }
 
@@ -334,8 +334,8 @@ class Unheld extends Error {}
 
 const isAfter = (slot: string): boolean => slot === 'smoothed' || slot.startsWith('after.');
 
-const isByBasins = (colouring: Colouring): colouring is 'minima' | 'maxima' =>
-  colouring === 'minima' || colouring === 'maxima';
+const isByBasins = (coloring: Coloring): coloring is 'minima' | 'maxima' =>
+  coloring === 'minima' || coloring === 'maxima';
 
 /** What is sent is given away. */
 function copied({ features, values, all }: Found): Found {

@@ -20,7 +20,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Camera, Lines, Solids, Surface } from 'morse-smooth/snapshot';
-import { along, basinColours, textureOf } from './colormap';
+import { along, basinColors, textureOf } from './colormap';
 import { CurveLayer, segmentsOf } from './curves';
 import { fieldOfView, frame } from './framing';
 import { GlyphLayer, radiusOf } from './glyphs';
@@ -45,9 +45,9 @@ export interface Layers {
   levels: boolean;
   edges: boolean;
   complex: boolean;
-  /** Colours by basin instead of by value. */
+  /** Colors by basin instead of by value. */
   basins: boolean;
-  /** Colours by what has changed, where that is known. */
+  /** Colors by what has changed, where that is known. */
   difference: boolean;
 }
 
@@ -175,16 +175,16 @@ export class Viewer {
     this.draw();
   }
 
-  /** `stepped`: colours with steps between them. */
-  setColours(colours: Uint8Array, stepped: boolean): void {
-    paint(this.plainMaterial, textureOf(colours, stepped));
+  /** `stepped`: colors with steps between them. */
+  setColors(colors: Uint8Array, stepped: boolean): void {
+    paint(this.plainMaterial, textureOf(colors, stepped));
     this.draw();
   }
 
-  /** The same for what has changed, with colours of its own. */
-  setDifference(shades: Float32Array, colours: Uint8Array): void {
+  /** The same for what has changed, with colors of its own. */
+  setDifference(shades: Float32Array, colors: Uint8Array): void {
     this.surface.geometry.setAttribute('uv1', along(shades));
-    const texture = textureOf(colours, false);
+    const texture = textureOf(colors, false);
     texture.channel = 1;
     paint(this.differenceMaterial, texture);
     this.applyLayers();
@@ -198,11 +198,11 @@ export class Viewer {
     this.draw();
   }
 
-  /** The numbers of the vertices' colours, which are mixed over the triangles in which basins meet. */
+  /** The numbers of the vertices' colors, which are mixed over the triangles in which basins meet. */
   setBasins(numbers: Uint8Array): void {
     if (!this.look) return;
-    const colours = basinColours(numbers, this.look.surface.vertices);
-    this.surface.geometry.setAttribute('color', new BufferAttribute(colours, 3));
+    const colors = basinColors(numbers, this.look.surface.vertices);
+    this.surface.geometry.setAttribute('color', new BufferAttribute(colors, 3));
     this.applyLayers();
   }
 
@@ -262,7 +262,7 @@ export class Viewer {
     this.curves.levels.show(levels);
     this.curves.descending.show(complex);
     this.curves.ascending.show(complex);
-    // Until the colours have come, values are shown.
+    // Until the colors have come, values are shown.
     const has = (name: string): boolean => this.surface.geometry.hasAttribute(name);
     if (basins && has('color')) this.surface.material = this.basinMaterial;
     else if (difference && has('uv1')) this.surface.material = this.differenceMaterial;

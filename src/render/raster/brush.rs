@@ -1,4 +1,4 @@
-//! The colour of a triangle in a point.
+//! The color of a triangle in a point.
 
 use super::facets::{Facets, Material};
 use super::light::Lamp;

@@ -1,12 +1,14 @@
 //! All triangles of a picture, projected: those of the surface, then those of the solids.
 
-use super::{Binned, Frame, SAMPLES, room};
-use crate::error::FieldError;
+use super::binned::Binned;
+use super::frame::{Frame, SAMPLES};
+use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::dot;
 use crate::render::camera::View;
 use crate::render::colormap::Rgb;
 use crate::render::draw_list::{DrawList, Solids};
 use crate::render::surface::Surface;
+use crate::support::memory::with_room;
 
 /// Corners lie on a grid, so many to a sample: in whole numbers it is exact on which side of an edge a sample is, and neighbours
 /// leave no gap.
@@ -24,11 +26,11 @@ pub(super) struct Corner {
 /// What triangles are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Material {
-    /// The surface: colours of the values.
+    /// The surface: colors of the values.
     Values,
-    /// A solid: one colour, with what shines of it without light.
+    /// A solid: one color, with what shines of it without light.
     Solid(Rgb, f64),
-    /// A rim: one colour, without light.
+    /// A rim: one color, without light.
     Rim(Rgb),
 }
 
@@ -49,9 +51,9 @@ impl Facets {
         let triangles: usize = solids().map(|(count, shape)| 2 * count * shape.triangles.len()).sum();
         let (points, normals) = (surface.positions.as_chunks::<3>().0, surface.normals.as_chunks::<3>().0);
         let mut this = Self {
-            corners: room(points.len() + corners)?,
-            normals: room(points.len() + corners)?,
-            triangles: room(surface.triangles.len() + triangles)?,
+            corners: with_room(points.len() + corners)?,
+            normals: with_room(points.len() + corners)?,
+            triangles: with_room(surface.triangles.len() + triangles)?,
             materials: vec![(0, Material::Values)],
         };
         for (&point, &normal) in points.iter().zip(normals) {
@@ -98,7 +100,7 @@ impl Facets {
     }
 
     /// The triangles of each strip of so many rows.
-    pub(super) fn by_strip(&self, frame: &Frame, rows: usize) -> Result<Binned, FieldError> {
+    pub(super) fn by_strip(&self, frame: &Frame, rows: usize) -> Result<Binned, OutOfMemory> {
         let height = (rows * SAMPLES) as i64 * GRID;
         let count = frame.height.div_ceil(rows);
         Binned::new(self.triangles.len(), count, |t| {

@@ -1,4 +1,4 @@
-//! Colours under light. Light adds up in linear colours, and pixels hold sRGB.
+//! Colors under light. Light adds up in linear colors, and pixels hold sRGB.
 
 use crate::mesh::{dot, norm};
 use crate::render::colormap::Rgb;

@@ -2,11 +2,13 @@
 
 use tiny_skia::{LineCap, LineJoin, Paint, Path, PathBuilder, PixmapMut, Stroke, Transform};
 
-use super::{Binned, Frame, room};
-use crate::error::FieldError;
+use super::binned::Binned;
+use super::frame::Frame;
+use crate::error::{FieldError, OutOfMemory};
 use crate::render::camera::View;
 use crate::render::colormap::Rgb;
 use crate::render::draw_list::{DrawList, Lines};
+use crate::support::memory::with_room;
 
 /// Pixels between two places at which a line is looked at.
 const STEP: f64 = 0.5;
@@ -51,7 +53,7 @@ impl Tracks {
                 this.add(kind, lines, line, view)?;
             }
         }
-        this.seen = room(this.probes.len())?;
+        this.seen = with_room(this.probes.len())?;
         this.seen.resize(this.probes.len(), false);
         Ok(this)
     }
@@ -88,7 +90,7 @@ impl Tracks {
         Ok(())
     }
 
-    pub(super) fn by_strip(&self, frame: &Frame, rows: usize) -> Result<Binned, FieldError> {
+    pub(super) fn by_strip(&self, frame: &Frame, rows: usize) -> Result<Binned, OutOfMemory> {
         let count = frame.height.div_ceil(rows);
         Binned::new(self.probes.len(), count, |probe| {
             let Probe { x, y, .. } = self.probes[probe];

@@ -100,5 +100,5 @@ pub(super) fn samples([a, b, c]: [i64; 3], first: usize, end: usize) -> (usize, 
     if from <= to { (from as usize, to as usize + 1) } else { (first, first) }
 }
 
-/// Of the grid's steps to a sample.
+/// How many bits the grid's steps to a sample take.
 const BITS: u32 = GRID.trailing_zeros();

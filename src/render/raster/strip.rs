@@ -4,13 +4,14 @@ use tiny_skia::{PixmapMut, PremultipliedColorU8};
 
 use super::brush::{Brush, Group};
 use super::facets::{Facets, GRID, Material};
+use super::frame::{Frame, SAMPLES};
 use super::light::Lamp;
 use super::lines::Probe;
 use super::plane::{Plane, middle, samples};
-use super::{Frame, SAMPLES, room};
 use crate::error::FieldError;
 use crate::render::draw_list::DrawList;
 use crate::render::style;
+use crate::support::memory::with_room;
 
 const NOTHING: u32 = u32::MAX;
 /// How far a line may lie behind the surface that it is drawn on: relative, for rounding; as a part of what the depth changes over
@@ -27,7 +28,7 @@ pub(super) struct Strip {
     rows: usize,
     end: usize,
     first: usize,
-    /// Of the nearest triangle at each sample; 0 at infinity.
+    /// The depth of the nearest triangle at each sample; 0 at infinity.
     depths: Vec<f32>,
     triangles: Vec<u32>,
     lamp: Option<Lamp>,
@@ -71,7 +72,7 @@ impl Strip {
     pub(super) fn new(frame: &Frame, rows: usize) -> Result<Self, FieldError> {
         let rows = rows.min(frame.height.max(1));
         let count = rows * frame.width * SAMPLES * SAMPLES;
-        let (mut depths, mut triangles) = (room(count)?, room(count)?);
+        let (mut depths, mut triangles) = (with_room(count)?, with_room(count)?);
         depths.resize(count, 0.0);
         triangles.resize(count, NOTHING);
         let &Frame { left, top, width, height } = frame;
@@ -164,7 +165,7 @@ impl Strip {
         self.lamp = Some(lamp);
     }
 
-    /// The triangles in a pixel; each sample by itself where colours have steps.
+    /// The triangles in a pixel; each sample by itself where colors have steps.
     #[inline(never)]
     fn gather(&self, row: usize, column: usize, groups: &mut Vec<Group>, one_by_one: bool) {
         for j in 0..SAMPLES {

@@ -101,7 +101,7 @@ impl RawTriMesh {
         let values = floats(values)?;
         let (expected, actual) = (self.mesh.vertex_count(), values.len());
         if actual != expected {
-            return Err(FieldError::LengthMismatch { expected, actual }.into());
+            return Err(FieldError::length_mismatch(expected, actual, self.mesh.triangle_count()).into());
         }
         if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {
             return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());

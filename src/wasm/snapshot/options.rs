@@ -4,6 +4,7 @@ use wasm_bindgen::JsValue;
 
 use super::ingredients::{ComplexInput, LevelInput, PointInput};
 use crate::error::{Error, OptionError, Result};
+use crate::field::Missing;
 use crate::render::{Camera, Colormap, DrawOptions, SheetOptions, SnapshotOptions};
 use crate::wasm::shared::record::{Record, read};
 
@@ -22,6 +23,7 @@ pub(super) struct Input {
     range: Option<[f64; 2]>,
     levels: Option<LevelInput>,
     bands: Option<bool>,
+    missing: Missing,
     critical_points: Option<PointInput>,
     morse_complex: Option<ComplexInput>,
     width: Option<u32>,
@@ -44,6 +46,7 @@ impl Input {
                 bands: record.boolean("bands"),
                 critical_points: record.part("criticalPoints", PointInput::read),
                 morse_complex: record.part("morseComplex", ComplexInput::read),
+                missing: record.choice("missing").unwrap_or_default(),
                 ..Self::default()
             };
             if kind >= Kind::Picture {
@@ -74,6 +77,7 @@ impl Input {
             range: self.range,
             levels: self.levels.as_ref().map_or(defaults.levels, LevelInput::levels),
             bands: self.bands.unwrap_or(defaults.bands),
+            missing: self.missing,
             critical_points: self.critical_points.as_ref().map_or(defaults.critical_points, PointInput::glyphs),
             morse_complex: self.morse_complex.as_ref().map_or(defaults.morse_complex, ComplexInput::separatrices),
         }

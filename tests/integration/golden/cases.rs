@@ -108,7 +108,7 @@ fn numbers(list: &[Value]) -> Vec<f64> {
 }
 
 fn colormap(value: &Value) -> Colormap {
-    Colormap::named(value.as_str().expect("a name")).expect("a colour map")
+    Colormap::named(value.as_str().expect("a name")).expect("a color map")
 }
 
 fn camera(value: &Value) -> Camera {

@@ -154,7 +154,7 @@ fn up_is_up_and_right_is_right() {
         super::image::tile(0.0, 0.8, 0.0, 0.05),
     ]);
     let values: Vec<f64> = (0..12).map(|v| f64::from(v / 4)).collect();
-    // The colours of the three tiles.
+    // The colors of the three tiles.
     let mean = |image: &Image, tile: usize| {
         let list = morse_smooth::render::Colormap::Viridis.color(tile as f64 / 2.0);
         let near = image.places(|pixel| (0..3).all(|c| pixel[c].abs_diff(list[c]) < 45));

@@ -1,4 +1,4 @@
-//! Minima, saddles and maxima, told apart without colour.
+//! Minima, saddles and maxima, told apart without color.
 
 use morse_smooth::field::{CriticalKind, CriticalPoint};
 use morse_smooth::mesh::{TriMesh, shapes};
@@ -92,7 +92,7 @@ fn on_an_open_surface_they_stand_on_the_side_that_is_looked_at() {
 }
 
 #[test]
-fn a_rim_keeps_them_apart_from_any_colour() {
+fn a_rim_keeps_them_apart_from_any_color() {
     for kind in KINDS {
         let (points, image) = silhouette(kind, [0.0, 0.0, 1.0], 600);
         let rows: Vec<f64> = points.iter().map(|p| p[1]).collect();
@@ -100,7 +100,7 @@ fn a_rim_keeps_them_apart_from_any_colour() {
         let row: Vec<[u8; 3]> =
             points.iter().filter(|p| p[1] == middle.round()).map(|p| image.at(p[0] as usize, p[1] as usize)).collect();
         let light = |color: [u8; 3]| color.iter().map(|&byte| u32::from(byte)).sum::<u32>();
-        // Dark, the colour, dark.
+        // Dark, the color, dark.
         let (first, last) = (light(row[1]), light(row[row.len() - 2]));
         let brightest = row.iter().map(|&color| light(color)).max().unwrap();
         assert!(first < 130 && last < 130 && brightest > 260, "{kind:?}: {first} {brightest} {last}");
@@ -168,7 +168,7 @@ fn all_critical_points_are_drawn_with_their_kinds() {
     for solids in &list.solids {
         for ((&v, place), axis) in solids.vertices.iter().zip(&solids.places).zip(&solids.axes) {
             let [x, y, z] = mesh.position(v);
-            // From the centre of the tube, outwards.
+            // From the center of the tube, outwards.
             let r = x.hypot(y);
             let outwards = [x - x / r, y - y / r, z].map(|x| x / 0.4);
             let along: f64 = (0..3).map(|i| outwards[i] * axis[i]).sum();

@@ -86,7 +86,7 @@ pub(crate) fn code(result: Result<Vec<u8>, Error>) -> &'static str {
     result.err().map_or("a picture", |error| error.code())
 }
 
-/// A colour in the light of a lamp, where the surface faces along the unit vector `normal`: right, up, towards the camera.
+/// A color in the light of a lamp, where the surface faces along the unit vector `normal`: right, up, towards the camera.
 pub(crate) fn lit(color: Rgb, light: &Light, normal: [f64; 3]) -> [f64; 3] {
     let facing: f64 = (0..3).map(|i| normal[i] * light.direction[i]).sum();
     let amount = light.ambient + light.diffuse * facing.max(0.0);
@@ -99,7 +99,7 @@ pub(crate) fn lit(color: Rgb, light: &Light, normal: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// How far a pixel is from a colour.
+/// How far a pixel is from a color.
 pub(crate) fn error(pixel: Rgb, expected: [f64; 3]) -> f64 {
     (0..3).map(|c| (f64::from(pixel[c]) - expected[c]).abs()).fold(0.0, f64::max)
 }

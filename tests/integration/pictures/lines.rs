@@ -218,7 +218,7 @@ fn a_line_is_seen_as_far_as_nothing_is_in_front() {
         .map(|k| [k % 450, k / 450])
         .filter(|&[x, y]| ink.without.at(x, y) != [255; 3] && ink.at(x, y) > 0.3)
         .collect();
-    // The front tile's columns: those of a row through its middle that have its colours, x = ±0.5 at z = 0.3.
+    // The front tile's columns: those of a row through its middle that have its colors, x = ±0.5 at z = 0.3.
     let front = draw(&mesh, &values, &{
         let mut options = options;
         options.draw.levels = Levels::At(&[-0.999, 0.999]);

@@ -1,4 +1,4 @@
-//! Colour maps, against the published ones and against what their names promise.
+//! Color maps, against the published ones and against what their names promise.
 
 use morse_smooth::render::Colormap;
 
@@ -15,7 +15,7 @@ const ALL: [Colormap; 8] = [
     Colormap::PurpleGreen,
 ];
 
-/// CIE L*, 0 to 100: how light a colour looks.
+/// CIE L*, 0 to 100: how light a color looks.
 fn lightness(color: Rgb) -> f64 {
     let [r, g, b] = color.map(|byte| {
         let x = f64::from(byte) / 255.0;
@@ -26,14 +26,14 @@ fn lightness(color: Rgb) -> f64 {
 }
 
 #[test]
-fn colours_are_those_that_are_published() {
+fn colors_are_those_that_are_published() {
     for (map, colors) in [
         (Colormap::Viridis, [[68, 1, 84], [33, 145, 140], [253, 231, 37]]),
         (Colormap::Magma, [[0, 0, 4], [183, 55, 121], [252, 253, 191]]),
         (Colormap::Inferno, [[0, 0, 4], [188, 55, 84], [252, 255, 164]]),
         (Colormap::Plasma, [[13, 8, 135], [204, 71, 120], [240, 249, 33]]),
         (Colormap::CoolWarm, [[59, 76, 192], [221, 221, 221], [180, 4, 38]]),
-        // ColorBrewer's, whose splines pass near the colours.
+        // ColorBrewer's, whose splines pass near the colors.
         (Colormap::BlueRed, [[49, 54, 149], [255, 255, 191], [165, 0, 38]]),
         (Colormap::PurpleGreen, [[64, 0, 75], [247, 247, 247], [0, 68, 27]]),
     ] {
@@ -72,7 +72,7 @@ fn diverging_maps_are_lightest_in_the_middle_and_alike_on_both_sides() {
 }
 
 #[test]
-fn any_number_has_a_colour() {
+fn any_number_has_a_color() {
     for map in ALL {
         for low in [-1e300, -0.1, f64::NEG_INFINITY, -0.0] {
             assert_eq!(map.color(low), map.color(0.0));

@@ -26,7 +26,7 @@ pub(crate) fn edges(image: &Image) -> [f64; 4] {
 }
 
 #[test]
-fn colours_are_those_of_the_values_in_the_light() {
+fn colors_are_those_of_the_values_in_the_light() {
     let mesh = shapes::grid(9, 7).unwrap();
     for (axis, map) in [(0, Colormap::Viridis), (1, Colormap::CoolWarm), (0, Colormap::Magma)] {
         let values = coordinate(&mesh, axis);
@@ -50,7 +50,7 @@ fn colours_are_those_of_the_values_in_the_light() {
 }
 
 #[test]
-fn a_range_bounds_the_colours() {
+fn a_range_bounds_the_colors() {
     let mesh = shapes::grid(3, 3).unwrap();
     let values: Vec<f64> = coordinate(&mesh, 0).iter().map(|x| 10.0 * x).collect();
     let mut options = bare(200, 200);
@@ -127,7 +127,7 @@ fn edges_are_smoothed_by_how_much_of_a_pixel_they_cover() {
 
 #[test]
 fn neighbours_leave_no_gap() {
-    // All of one colour: an edge inside would show.
+    // All of one color: an edge inside would show.
     let values = vec![1.0; 400];
     let grid = shapes::grid(20, 20).unwrap();
     let mut random = shapes::Random::new(3);
@@ -198,7 +198,7 @@ fn the_nearer_one_of_two_is_seen_however_near() {
 }
 
 #[test]
-fn a_constant_field_has_the_middle_colour_and_no_lines() {
+fn a_constant_field_has_the_middle_color_and_no_lines() {
     let mesh = shapes::grid(4, 4).unwrap();
     for value in [0.0, -3.0, 1e300, 5e-324] {
         let values = vec![value; 16];

@@ -177,7 +177,7 @@ fn bar_from(mesh: &TriMesh, values: &[f64], options: &SnapshotOptions<'_>) -> (I
 }
 
 #[test]
-fn a_bar_shows_all_colours_in_their_order() {
+fn a_bar_shows_all_colors_in_their_order() {
     // Wider than high, so that sizes do not depend on the width that is left.
     let mesh = shapes::grid(5, 5).unwrap();
     let values = coordinate(&mesh, 0);
@@ -186,7 +186,7 @@ fn a_bar_shows_all_colours_in_their_order() {
         options.draw.colormap = map;
         let (image, from) = bar_from(&mesh, &values, &options);
         assert!(from > 400, "{from}");
-        // The column inside the bar with the most colours.
+        // The column inside the bar with the most colors.
         let colored =
             |x: usize| (0..300).filter(|&y| image.at(x, y) != WHITE && image.at(x, y).iter().max() > Some(&60)).count();
         let column = (from..600).max_by_key(|&x| colored(x)).unwrap();
@@ -202,7 +202,7 @@ fn a_bar_shows_all_colours_in_their_order() {
 }
 
 #[test]
-fn bands_have_bars_of_as_many_colours() {
+fn bands_have_bars_of_as_many_colors() {
     let mesh = shapes::grid(5, 5).unwrap();
     let values = coordinate(&mesh, 0);
     let mut options = bare(600, 300);
@@ -218,7 +218,7 @@ fn bands_have_bars_of_as_many_colours() {
     for place in [0.125, 0.375, 0.625, 0.875] {
         let expected = Colormap::Viridis.color(place);
         let near: usize = counts.iter().filter(|(color, _)| distance(**color, expected) <= 3).map(|(_, n)| n).sum();
-        assert!(near > 300, "{near} pixels of the colour at {place}");
+        assert!(near > 300, "{near} pixels of the color at {place}");
     }
 }
 

@@ -147,7 +147,7 @@ fn point(list: &[f64], corner: u32) -> Point {
     [0, 1, 2].map(|i| list[3 * corner as usize + i])
 }
 
-/// The colour of a place of the surface; from behind, it is lit from behind.
+/// The color of a place of the surface; from behind, it is lit from behind.
 fn shaded(surface: &Surface, list: &DrawList, eye: &Eye, triangle: usize, parts: Point) -> [f64; 3] {
     let corners = surface.triangles[triangle];
     let mix = |value: &dyn Fn(u32) -> f64| (0..3).map(|k| parts[k] * value(corners[k])).sum::<f64>();

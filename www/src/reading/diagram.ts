@@ -94,11 +94,11 @@ export class Diagram {
     const line = (
       from: [number, number],
       to: [number, number],
-      colour: string,
+      color: string,
       thick: number,
       dash: number[],
     ): void => {
-      ctx.strokeStyle = colour;
+      ctx.strokeStyle = color;
       ctx.lineWidth = thick * ratio;
       ctx.setLineDash(dash.map((length) => length * ratio));
       ctx.beginPath();
@@ -146,7 +146,7 @@ export class Diagram {
     const { ctx } = this.plot;
     const ratio = uPlot.pxRatio;
     const radius = (how.halo ? 1.6 : 1) * RADIUS * ratio;
-    const colour = kind < 0 ? MINIMUM : MAXIMUM;
+    const color = kind < 0 ? MINIMUM : MAXIMUM;
     const circle = (size: number): void => {
       ctx.beginPath();
       ctx.arc(x, y, size, 0, 2 * Math.PI);
@@ -166,9 +166,9 @@ export class Diagram {
       ctx.closePath();
     }
     ctx.lineWidth = ratio;
-    ctx.fillStyle = how.filled && kind !== 0 ? colour : 'rgb(255 255 255 / 70%)';
+    ctx.fillStyle = how.filled && kind !== 0 ? color : 'rgb(255 255 255 / 70%)';
     ctx.fill();
-    ctx.strokeStyle = kind === 0 || how.filled ? INK : colour;
+    ctx.strokeStyle = kind === 0 || how.filled ? INK : color;
     ctx.globalAlpha = how.filled || how.halo ? 1 : 0.6;
     ctx.stroke();
     ctx.globalAlpha = 1;

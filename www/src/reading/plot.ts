@@ -1,7 +1,7 @@
-/** What both plots share: a uPlot without data of its own that fills its box, in the page's colours. */
+/** What both plots share: a uPlot without data of its own that fills its box, in the page's colors. */
 import uPlot from 'uplot';
 
-/** Kept equal to the colours in style.css; saddles are white there, which no line on white can be. */
+/** Kept equal to the colors in style.css; saddles are white there, which no line on white can be. */
 export const INK = '#16202e';
 export const SOFT = '#53617a';
 export const MINIMUM = '#2f6bff';

@@ -3,7 +3,7 @@ import { invalidArgument } from '../../runtime/error.js';
 import { Handle } from '../../runtime/handles.js';
 import { watched } from '../../runtime/progress.js';
 import { toConstraints, toLevels } from './arguments.js';
-import { module } from './module.js';
+import { core } from './module.js';
 
 /** For every mesh its handle and its topology, once that is known. (Private fields would be out of reach for other files.) */
 const states = new WeakMap();
@@ -26,7 +26,7 @@ export function meshOf(handle) {
 
 export class TriMesh {
   constructor(positions, triangles, options) {
-    const { instance } = module;
+    const { instance } = core;
     const numbers = toNumbers(positions, 'positions');
     const ids = triangles === null ? undefined : toTriangles(triangles, Math.floor(numbers.length / 3));
     const settings = toOptions(options);

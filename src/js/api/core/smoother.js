@@ -2,7 +2,7 @@ import { toNumbers, toOptions } from '../../runtime/convert.js';
 import { watched } from '../../runtime/progress.js';
 import { toConstraints } from './arguments.js';
 import { handleOf } from './mesh.js';
-import { module } from './module.js';
+import { core } from './module.js';
 
 /** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
 const CONSTRAINED = ['interpolate', 'leastSquares'];
@@ -15,7 +15,7 @@ export class Smoother {
 
   constructor(mesh, options) {
     // Before anything else: whether there is an instance at all.
-    void module.instance;
+    void core.instance;
     const source = handleOf(mesh);
     const given = toOptions(options);
     this.#onProgress = given?.onProgress;
@@ -64,7 +64,7 @@ export class Smoother {
 }
 
 export function smooth(mesh, values, options) {
-  void module.instance;
+  void core.instance;
   const source = handleOf(mesh);
   const numbers = toNumbers(values, 'values');
   const given = withConstraints(toOptions(options), mesh.vertexCount);

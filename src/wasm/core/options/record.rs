@@ -1,10 +1,8 @@
 //! What only the options of the core are read by.
 
 use js_sys::Function;
-use wasm_bindgen::JsValue;
 
 use crate::error::OptionError;
-use crate::support::named::Named;
 use crate::wasm::shared::record::{Record, is_absent};
 
 impl Record {
@@ -35,26 +33,6 @@ impl Record {
             self.invalid(name, expected);
         }
         self.integer(name).unwrap_or_default() as usize
-    }
-
-    /// One of the choices, by its name.
-    pub(in crate::wasm::core) fn choice<T: Named>(&self, name: &str) -> Option<T> {
-        self.has(name).then(|| self.chosen(name))?
-    }
-
-    /// One of the choices, by its name, where none is the default.
-    pub(in crate::wasm::core) fn chosen<T: Named>(&self, name: &str) -> Option<T> {
-        let found = self.get(name).and_then(JsValue::as_string).and_then(|label| T::labelled(&label));
-        if found.is_none() {
-            self.no_choice(name, &mut T::CHOICES.iter().map(|choice| choice.label()));
-        }
-        found
-    }
-
-    #[inline(never)]
-    fn no_choice(&self, name: &str, labels: &mut dyn Iterator<Item = &'static str>) {
-        let labels: Vec<&str> = labels.collect();
-        self.invalid(name, &format!("one of \"{}\"", labels.join("\", \"")));
     }
 
     pub(in crate::wasm::core) fn function(&self, name: &str) -> Option<Function> {

@@ -1,0 +1,86 @@
+//! The active vertices: those that the operators act on, and what hangs together by them.
+
+use nalgebra_sparse::CscMatrix;
+
+use super::Operator;
+use crate::error::Result;
+use crate::mesh::{LinkKind, TriMesh};
+use crate::operators::{MassScale, lumped_mass_diagonal};
+
+/// The component of a vertex that is not active.
+const NONE: u32 = u32::MAX;
+
+/// The active vertices, by components of L: the kernel of L has one constant for each.
+#[derive(Debug)]
+pub(super) struct ActiveVertices {
+    /// The active vertices, ascending.
+    list: Vec<u32>,
+    /// The component of every vertex.
+    component: Vec<u32>,
+    /// The least vertex of each component.
+    first: Vec<u32>,
+}
+
+impl ActiveVertices {
+    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
+        let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
+        let kinds = mesh.connectivity().link_kinds();
+        let mut list = Vec::with_capacity(kinds.len());
+        for (v, column) in laplacian.col_iter().enumerate() {
+            // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero. The
+            // finite-element operator divides by areas.
+            let tied = areas[v] > 0.0 || column.values().iter().any(|&x| x != 0.0);
+            let divisible = operator == Operator::Paper || areas[v].recip().is_finite();
+            if kinds[v] != LinkKind::Isolated && tied && divisible {
+                list.push(v as u32);
+            }
+        }
+        let mut vertices = Self { component: vec![NONE; kinds.len()], list, first: Vec::new() };
+        vertices.number(laplacian);
+        Ok(vertices)
+    }
+
+    /// Numbers the components, by their least vertices.
+    fn number(&mut self, laplacian: &CscMatrix<f64>) {
+        /// An active vertex without a number yet.
+        const OPEN: u32 = NONE - 1;
+        for &v in &self.list {
+            self.component[v as usize] = OPEN;
+        }
+        let mut stack = Vec::new();
+        for &start in &self.list {
+            if self.component[start as usize] != OPEN {
+                continue;
+            }
+            let number = self.first.len() as u32;
+            self.first.push(start);
+            self.component[start as usize] = number;
+            stack.push(start);
+            while let Some(v) = stack.pop() {
+                let column = laplacian.col(v as usize);
+                for (&row, &value) in column.row_indices().iter().zip(column.values()) {
+                    if value != 0.0 && self.component[row] == OPEN {
+                        self.component[row] = number;
+                        stack.push(row as u32);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The active vertices, ascending.
+    pub(super) fn list(&self) -> &[u32] {
+        &self.list
+    }
+
+    /// The component of a vertex; none where it is not active.
+    pub(super) fn component(&self, vertex: u32) -> Option<usize> {
+        let component = self.component[vertex as usize];
+        (component != NONE).then_some(component as usize)
+    }
+
+    /// The least vertex of each component.
+    pub(super) fn first_vertices(&self) -> &[u32] {
+        &self.first
+    }
+}

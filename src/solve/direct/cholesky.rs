@@ -1,0 +1,273 @@
+//! The direct solver: order and analyse a pattern once, factorise it for any values, solve for any right-hand sides.
+
+use std::sync::Arc;
+
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::multifrontal::{Workspace, reserve, reserve_fronts, storage};
+use super::scalar::{LaneBlock, Scalar};
+use super::symbolic::{FactorSize, Symbolic};
+use super::triangular::{solve_block, solve_one};
+use crate::Watch;
+use crate::error::SolveError;
+use crate::solve::matrix::ADDRESS_SPACE;
+use crate::solve::ordering::{Permutation, nested_dissection};
+
+/// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct CholeskyAnalysis {
+    shared: Arc<Analysis>,
+}
+
+#[derive(Debug)]
+struct Analysis {
+    pattern: SparsityPattern,
+    symbolic: Symbolic,
+}
+
+impl CholeskyAnalysis {
+    /// Orders the unknowns by [`nested_dissection`] and analyses the pattern of a symmetric matrix, both triangles stored.
+    ///
+    /// # Errors
+    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
+    pub fn new(pattern: SparsityPattern, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        check_symmetric(&pattern)?;
+        let permutation = Permutation::from_valid(nested_dissection(&pattern, watch)?);
+        Ok(Self::analyze(pattern, &permutation))
+    }
+
+    /// As [`CholeskyAnalysis::new`], with an ordering of the caller's. The order of elimination is an equivalent one, with
+    /// the same entries in the factor.
+    ///
+    /// # Errors
+    /// As [`CholeskyAnalysis::new`]; `DimensionMismatch` where the permutation has another size.
+    pub fn with_permutation(
+        pattern: SparsityPattern,
+        permutation: &Permutation,
+        _watch: &Watch<'_>,
+    ) -> Result<Self, SolveError> {
+        check_symmetric(&pattern)?;
+        let (expected, actual) = (pattern.major_dim(), permutation.new_to_old().len());
+        if expected != actual {
+            return Err(SolveError::DimensionMismatch { expected, actual });
+        }
+        Ok(Self::analyze(pattern, permutation))
+    }
+
+    fn analyze(pattern: SparsityPattern, permutation: &Permutation) -> Self {
+        let symbolic = Symbolic::new(&pattern, permutation);
+        Self { shared: Arc::new(Analysis { pattern, symbolic }) }
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.shared.pattern.major_dim()
+    }
+
+    /// The pattern analysed.
+    #[must_use]
+    pub fn pattern(&self) -> &SparsityPattern {
+        &self.shared.pattern
+    }
+
+    /// What the factor holds.
+    #[must_use]
+    pub fn size(&self) -> FactorSize {
+        self.shared.symbolic.size
+    }
+
+    /// Bytes that a factor of this type and its computation take.
+    #[must_use]
+    pub fn memory<T: Scalar>(&self) -> u64 {
+        let (factor, stack) = storage::<T::Block>(&self.shared.symbolic);
+        factor.saturating_add(stack).saturating_mul(size_of::<T::Block>() as u64)
+    }
+
+    /// Factorises the matrix with the analysed pattern and the given values, in the order of the pattern: A = L Lᵀ up to
+    /// the ordering, for complex values too (the transpose, without conjugation).
+    ///
+    /// Real matrices must be positive definite; complex ones symmetric with a real part that is positive semi-definite. Only
+    /// one triangle is read: that the values are symmetric is for the caller to know.
+    ///
+    /// # Errors
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, and `OutOfMemory` with the number of
+    /// bytes, before anything is computed.
+    pub fn factor<T: Scalar>(&self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
+        self.check::<T>(values)?;
+        let mut factor = self.allocate::<T>().ok_or_else(|| SolveError::OutOfMemory { bytes: self.memory::<T>() })?;
+        factor.compute(values)?;
+        Ok(factor)
+    }
+
+    /// Room for a factor and its computation, if it can be had.
+    fn allocate<T: Scalar>(&self) -> Option<CholeskyFactor<T>> {
+        let symbolic = &self.shared.symbolic;
+        // What cannot fit must not be tried: WebAssembly never gives memory back.
+        if self.memory::<T>() > ADDRESS_SPACE {
+            return None;
+        }
+        // The largest block first.
+        let workspace = Workspace::new(symbolic, storage::<T::Block>(symbolic).1).ok()?;
+        let fronts = reserve_fronts(symbolic).ok()?;
+        // Vectors that will be needed beside the factor must find room too.
+        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).ok()?);
+        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, failed: None })
+    }
+
+    fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
+        if values.len() != self.shared.pattern.nnz() {
+            return Err(SolveError::PatternMismatch {});
+        }
+        if let Some(place) = values.iter().position(|&value| !T::is_finite(value)) {
+            let row = self.shared.pattern.major_offsets().partition_point(|&start| start <= place) - 1;
+            return Err(SolveError::NonFiniteEntry { row });
+        }
+        Ok(())
+    }
+}
+
+/// Bytes per unknown that must be left beside a factor, for a few dozen vectors.
+const HEADROOM: u64 = 512;
+
+/// A numeric factor.
+#[derive(Debug, Clone)]
+pub struct CholeskyFactor<T: Scalar> {
+    analysis: CholeskyAnalysis,
+    /// Every front's part of the factor.
+    fronts: Vec<Vec<T::Block>>,
+    workspace: Workspace<T::Block>,
+    /// The matrix was multiplied by this, to be within the range of single precision.
+    scale: f64,
+    /// The column at which the factorisation failed.
+    failed: Option<usize>,
+}
+
+impl<T: Scalar> CholeskyFactor<T> {
+    /// Factorises other values on the same pattern, in the memory of this factor.
+    ///
+    /// # Errors
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column; after the last, solving gives the same
+    /// error.
+    pub fn refactor(&mut self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<(), SolveError> {
+        self.analysis.check::<T>(values)?;
+        self.compute(values)
+    }
+
+    fn compute(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
+        let Analysis { pattern, symbolic } = &*self.analysis.shared;
+        [self.scale, _] = scales::<T>(values);
+        let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.fronts);
+        self.failed = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
+        self.failed.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
+    }
+
+    /// Solves A X = B for right-hand sides stored one after the other.
+    ///
+    /// # Errors
+    /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`.
+    pub fn solve(&self, right_hand_sides: &[T::Wide], _watch: &Watch<'_>) -> Result<Vec<T::Wide>, SolveError> {
+        let n = self.analysis.unknowns();
+        if right_hand_sides.is_empty() && n == 0 {
+            return Ok(Vec::new());
+        }
+        if n == 0 || !right_hand_sides.len().is_multiple_of(n) {
+            return Err(SolveError::DimensionMismatch { expected: n, actual: right_hand_sides.len() });
+        }
+        if let Some(place) = right_hand_sides.iter().position(|&value| !T::is_finite(value)) {
+            return Err(SolveError::NonFiniteEntry { row: place % n });
+        }
+        if let Some(column) = self.failed {
+            return Err(SolveError::NotPositiveDefinite { column });
+        }
+        let mut solutions = vec![T::Wide::default(); right_hand_sides.len()];
+        let block = n * T::Block::LANES;
+        for (b, x) in right_hand_sides.chunks(block).zip(solutions.chunks_mut(block)) {
+            // A block costs as much as a few single solves, however many of its lanes are used.
+            if b.len() / n <= T::Block::LANES / 4 {
+                for (b, x) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
+                    self.solve_one(b, x);
+                }
+            } else {
+                self.solve_block(b, x);
+            }
+        }
+        Ok(solutions)
+    }
+
+    fn solve_one(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+        let symbolic = &self.analysis.shared.symbolic;
+        let new_to_old = symbolic.permutation.new_to_old();
+        let [shrink, grow] = scales::<T>(b);
+        let mut permuted: Vec<T> =
+            new_to_old.iter().map(|&old| T::narrow(T::scaled(b[old as usize], shrink))).collect();
+        solve_one(symbolic, &self.fronts, &mut permuted);
+        for (value, &old) in permuted.iter().zip(new_to_old) {
+            x[old as usize] = T::scaled(value.wide(), grow * self.scale);
+        }
+    }
+
+    fn solve_block(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+        let symbolic = &self.analysis.shared.symbolic;
+        let new_to_old = symbolic.permutation.new_to_old();
+        let n = new_to_old.len();
+        let mut permuted = vec![T::Block::ZERO; n];
+        for (lane, b) in b.chunks_exact(n).enumerate() {
+            let [shrink, _] = scales::<T>(b);
+            for (block, &old) in permuted.iter_mut().zip(new_to_old) {
+                block.set_lane(lane, T::narrow(T::scaled(b[old as usize], shrink)));
+            }
+        }
+        solve_block(symbolic, &self.fronts, &mut permuted);
+        for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
+            let [_, grow] = scales::<T>(b);
+            for (block, &old) in permuted.iter().zip(new_to_old) {
+                x[old as usize] = T::scaled(block.lane(lane).wide(), grow * self.scale);
+            }
+        }
+    }
+
+    /// The analysis this factor was made with.
+    #[must_use]
+    pub fn analysis(&self) -> &CholeskyAnalysis {
+        &self.analysis
+    }
+}
+
+/// What brings numbers to about 1 and back: single precision has a small range.
+fn scales<T: Scalar>(b: &[T::Wide]) -> [f64; 2] {
+    if !T::SINGLE {
+        return [1.0, 1.0];
+    }
+    let largest = b.iter().fold(0.0, |largest: f64, &value| largest.max(T::magnitude(value)));
+    if largest >= f64::MIN_POSITIVE { [largest.recip(), largest] } else { [1.0, 1.0] }
+}
+
+fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {
+    let (expected, actual) = (pattern.major_dim(), pattern.minor_dim());
+    if expected != actual {
+        return Err(SolveError::DimensionMismatch { expected, actual });
+    }
+    // Reading the columns in order meets the entries of every row in order too: one step in each row's own list.
+    let mut next = pattern.major_offsets()[..expected].to_vec();
+    let (offsets, indices) = (pattern.major_offsets(), pattern.minor_indices());
+    for column in 0..expected {
+        for &row in pattern.lane(column) {
+            let place = next[row];
+            if place == offsets[row + 1] || indices[place] != column {
+                return Err(one_sided(pattern));
+            }
+            next[row] = place + 1;
+        }
+    }
+    Ok(())
+}
+
+/// The first entry without a mirror image.
+fn one_sided(pattern: &SparsityPattern) -> SolveError {
+    let missing = (0..pattern.major_dim()).find_map(|column| {
+        let row = pattern.lane(column).iter().find(|&&row| pattern.lane(row).binary_search(&column).is_err());
+        row.map(|&row| SolveError::NotSymmetric { row, column })
+    });
+    missing.unwrap_or(SolveError::PatternMismatch {})
+}

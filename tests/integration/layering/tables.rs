@@ -1,0 +1,129 @@
+//! The drawing of ARCHITECTURE.md as tables. Whoever moves a file edits these, and nothing else here.
+
+/// What may use what.
+pub(crate) struct Rules {
+    /// What a module of the crate may use of it. `wasm` may use anything.
+    pub layers: &'static [(&'static str, &'static [&'static str])],
+    /// Folders with an order: their files and folders in groups, each of which may use its own group and the groups before.
+    /// Other folders have none; circles are forbidden everywhere.
+    pub orders: &'static [(&'static str, &'static [&'static [&'static str]])],
+    /// Files that may use words of [`super::words::NOT_IN_THE_CORE`].
+    pub platform: &'static [&'static str],
+}
+
+pub(crate) const RULES: Rules = Rules {
+    layers: &[
+        ("support", &["error"]),
+        ("error", &[]),
+        ("io", &["error", "support"]),
+        ("mesh", &["error", "support"]),
+        ("load", &["error", "io", "mesh"]),
+        ("operators", &["error", "support", "mesh"]),
+        ("field", &["error", "support", "mesh"]),
+        ("solve", &["error", "support"]),
+        ("smooth", &["error", "support", "mesh", "operators", "field", "solve"]),
+        ("render", &["error", "support", "mesh", "field"]),
+    ],
+    orders: &[
+        ("io", &[&["scan"], &["cursor"], &["assembly"], &["obj", "off", "ply", "vtk", "table"], &["write"], &["mod"]]),
+        ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
+        ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
+        ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
+        (
+            "solve/ordering",
+            &[
+                &["ids", "permutation"],
+                &["graph", "queue"],
+                &["leaf", "refine"],
+                &["edge_cut", "flow", "minimum_degree"],
+                &["bisection"],
+                &["dissection"],
+                &["mod"],
+            ],
+        ),
+        (
+            "solve/direct",
+            &[
+                &["tree"],
+                &["supernodes"],
+                &["symbolic"],
+                &["scalar", "lanes"],
+                &["lane_block"],
+                &["numbers"],
+                &["front"],
+                &["multifrontal", "triangular"],
+                &["cholesky"],
+                &["mod"],
+            ],
+        ),
+        (
+            "solve/iterative",
+            &[
+                &["rows"],
+                &["preconditioner"],
+                &["cg"],
+                &["elimination", "aggregation"],
+                &["multigrid"],
+                &["squared"],
+                &["mod"],
+            ],
+        ),
+        (
+            "field",
+            &[
+                &["order", "sorting", "link"],
+                &["scalar_field", "sweep"],
+                &["critical", "steepest"],
+                &["delta_hierarchy", "saddles", "level"],
+                &["merging"],
+                &["persistence"],
+                &["features"],
+                &["simplify"],
+                &["morse"],
+                &["mod"],
+            ],
+        ),
+        (
+            "smooth",
+            &[
+                &["options", "channels"],
+                &["routes"],
+                &["system"],
+                &["constraints", "maximum_principle", "bounds"],
+                &["report"],
+                &["regularized"],
+                &["tikhonov"],
+                &["least_squares", "interpolate", "filters"],
+                &["mod"],
+            ],
+        ),
+        (
+            "render",
+            &[
+                &["colormap", "solids", "surface"],
+                &["camera", "style"],
+                &["options"],
+                &["draw_list"],
+                &["raster", "font", "ticks", "png"],
+                &["text"],
+                &["legend"],
+                &["page"],
+                &["scene", "mod"],
+            ],
+        ),
+        (
+            "wasm",
+            &[
+                &["error"],
+                &["convert"],
+                &["options"],
+                &["mesh"],
+                &["critical", "files", "levels", "persistence"],
+                &["smoother"],
+                &["snapshot"],
+                &["mod"],
+            ],
+        ),
+    ],
+    platform: &["mesh/shapes.rs"],
+};
