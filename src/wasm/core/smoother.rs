@@ -45,7 +45,7 @@ impl RawSmoother {
 pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
     let (options, smoothing, watching) = read("", options, |record| {
         let options = smoother(record);
-        let default = if record.has("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
+        let default = if record.holds("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
         let method = record.choice("method").unwrap_or(default);
         let smoothing = Smoothing::read(record, method.method(), options.operator);
         record.foreign("the method does not have it", &|record| {

@@ -96,6 +96,11 @@ impl Record {
         Some(&entry.value).filter(|value| !is_absent(value))
     }
 
+    /// Whether the entry is there, without asking for it.
+    pub(in crate::wasm) fn holds(&self, name: &str) -> bool {
+        self.entries.iter().any(|entry| entry.name == name && !is_absent(&entry.value))
+    }
+
     /// Whether the entry is there.
     pub(in crate::wasm) fn has(&self, name: &str) -> bool {
         self.get(name).is_some()

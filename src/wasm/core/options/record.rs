@@ -3,7 +3,7 @@
 use js_sys::Function;
 
 use crate::error::OptionError;
-use crate::wasm::shared::record::{Record, is_absent};
+use crate::wasm::shared::record::{Entry, Record, is_absent};
 
 impl Record {
     /// The option means nothing here.
@@ -44,17 +44,19 @@ impl Record {
         self.is_decisive.set(true);
     }
 
-    /// Asks for options, by `fields`, that mean nothing here.
+    /// Asks for options, by `fields`, that mean nothing here. That one of them is there is told before anything else.
     #[inline(never)]
     pub(in crate::wasm::core) fn foreign(&self, reason: &str, fields: &dyn Fn(&Self)) {
         let known: Vec<bool> = self.entries.iter().map(|entry| entry.is_known.get()).collect();
         let problem = self.problem.take();
         fields(self);
-        self.problem.replace(problem);
-        for (entry, known) in self.entries.iter().zip(known) {
-            if !known && entry.is_known.get() && !is_absent(&entry.value) {
-                self.inapplicable(&entry.name, reason);
-            }
+        self.problem.take();
+        let is_foreign = |known: bool, entry: &Entry| !known && entry.is_known.get() && !is_absent(&entry.value);
+        if let Some((entry, _)) = self.entries.iter().zip(known).find(|(entry, known)| is_foreign(*known, entry)) {
+            self.inapplicable(&entry.name, reason);
+        }
+        if let Some(problem) = problem {
+            self.refuse(problem);
         }
     }
 }

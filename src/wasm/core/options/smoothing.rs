@@ -143,10 +143,9 @@ fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
             record.inapplicable(option, "the operator `fem` has its own mass matrix");
         }
     }
-    let unconstrained = record.choice("unconstrained");
-    if unconstrained.is_some() && record.choice("missing") != Some(Missing::Fill) {
-        record.inapplicable("unconstrained", "only where missing values are filled can a component have none");
-    }
+    // Without gaps that are filled in no component is without values.
+    let fills = record.choice("missing") == Some(Missing::Fill);
+    let unconstrained = if fills { record.choice("unconstrained") } else { None };
     TikhonovOptions {
         epsilon,
         metric,
