@@ -2,8 +2,8 @@
 
 use super::active::ActiveVertices;
 use super::channels::{Channel, Channels};
+use super::input::Input;
 use super::missing::Gaps;
-use super::run::Input;
 use super::schedule::Stages;
 use crate::error::{FieldError, MeshError, Result};
 use crate::field::{Features, ScalarField, feature_points, with_stars};

@@ -1,5 +1,9 @@
 //! The methods of smoothing with their options, as one choice.
 
+use std::sync::Arc;
+
+use super::channels::Channels;
+use super::input::Input;
 use super::methods::{
     BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions, bilateral, interpolate,
     least_squares, low_pass, tikhonov,
@@ -8,14 +12,12 @@ use super::missing::{Gaps, Part, missing_vertices, to_whole};
 use super::names::MethodName;
 use super::operators::Operators;
 use super::report::Smoothed;
-use super::run::Input;
 use super::systems::Systems;
-use super::{Constraints, SmootherOptions, channels::Channels};
+use super::{Constraints, SmootherOptions};
 use crate::error::{Error, MeshError, OptionError, Result};
 use crate::field::{Features, Missing};
 use crate::mesh::TriMesh;
 use crate::support::watch::Watch;
-use std::sync::Arc;
 
 /// A method of smoothing with its options, for [`Smoother::apply`](super::Smoother::apply).
 #[derive(Debug, Clone, Copy, PartialEq)]

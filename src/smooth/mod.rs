@@ -5,6 +5,7 @@ mod bounds;
 mod channels;
 mod constraints;
 mod data_term;
+mod input;
 mod maximum_principle;
 mod method;
 mod methods;

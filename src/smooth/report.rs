@@ -4,13 +4,14 @@ use nalgebra_sparse::CscMatrix;
 
 use super::channels::Channel;
 use super::constraints::ConstraintSet;
+use super::input::Input;
 use super::maximum_principle::MaximumPrinciple;
 use super::missing::Part;
 use super::names::{Equation, MethodName, Route, UsedPrecision};
 use super::operators::Operators;
 use super::routes::difference;
-use super::run::{About, Input, Measures};
 use super::system::{Solution, Solved};
+use super::unconstrained::UnconstrainedComponents;
 use crate::error::{FieldError, Result};
 use crate::field::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, ScalarField, VertexOrder,
@@ -123,6 +124,24 @@ fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
     let image = product(laplacian, values);
     let sobolev = image.iter().zip(values).map(|(a, b)| a * b).sum();
     SmoothnessEnergies { sobolev, laplacian_norm: norm(&image) }
+}
+
+/// What reports say of a method, and what it leaves to the loop over channels.
+pub(super) struct About {
+    pub(super) method: MethodName,
+    pub(super) equation: Equation,
+    pub(super) epsilon: Option<f64>,
+    pub(super) constraints: Option<ConstraintSet>,
+    /// The components that the equations do not determine, for methods that have such.
+    pub(super) unconstrained: Option<UnconstrainedComponents>,
+}
+
+/// What only the method can measure.
+#[derive(Default)]
+pub(super) struct Measures {
+    /// ‖x − f‖_B; nothing for the identity.
+    pub(super) metric_norm: Option<f64>,
+    pub(super) maximum_principle: Option<MaximumPrinciple>,
 }
 
 /// What only the method knows of a result.

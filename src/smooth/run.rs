@@ -2,35 +2,13 @@
 
 use std::sync::Arc;
 
-use super::channels::{Channel, Channels};
-use super::constraints::{ConstraintSet, level_constant_components};
-use super::maximum_principle::MaximumPrinciple;
-use super::missing::Gaps;
-use super::names::{Equation, MethodName};
-use super::operators::Operators;
-use super::report::{Facts, Smoothed, SolverReport, measure};
+use super::channels::Channel;
+use super::constraints::level_constant_components;
+use super::input::Input;
+use super::report::{About, Facts, Measures, Smoothed, SolverReport, measure};
 use super::schedule::Stages;
-use super::unconstrained::UnconstrainedComponents;
 use crate::error::Result;
 use crate::support::watch::Phase;
-
-/// The field to smooth.
-pub(super) struct Input<'a> {
-    pub(super) operators: &'a Operators,
-    pub(super) channels: Channels<'a>,
-    /// Where values are missing and to be filled in.
-    pub(super) gaps: Option<Gaps<'a>>,
-}
-
-/// What reports say of a method, and what it leaves to the loop.
-pub(super) struct About {
-    pub(super) method: MethodName,
-    pub(super) equation: Equation,
-    pub(super) epsilon: Option<f64>,
-    pub(super) constraints: Option<ConstraintSet>,
-    /// The components that the equations do not determine, for methods that have such.
-    pub(super) unconstrained: Option<UnconstrainedComponents>,
-}
 
 /// What finds the smooth values: a linear system, or the steps of a filter.
 ///
@@ -59,14 +37,6 @@ pub(super) struct Solution {
     /// Their normalised values.
     pub(super) x: Vec<f64>,
     pub(super) solver: SolverReport,
-}
-
-/// What only the method can measure.
-#[derive(Default)]
-pub(super) struct Measures {
-    /// ‖x − f‖_B; nothing for the identity.
-    pub(super) metric_norm: Option<f64>,
-    pub(super) maximum_principle: Option<MaximumPrinciple>,
 }
 
 /// Smooths all channels, some at a time.

@@ -9,9 +9,10 @@ use crate::field::Missing;
 use crate::smooth::Smoother;
 use crate::smooth::bounds;
 use crate::smooth::channels::Channel;
+use crate::smooth::input::Input;
 use crate::smooth::names::{Equation, MethodName};
-use crate::smooth::report::Smoothed;
-use crate::smooth::run::{About, Found, Input, Measures, Procedure, Solution, run};
+use crate::smooth::report::{About, Measures, Smoothed};
+use crate::smooth::run::{Found, Procedure, Solution, run};
 use crate::smooth::schedule::{Schedule, Stages};
 use crate::support::watch::{Phase, Watch};
 

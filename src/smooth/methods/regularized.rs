@@ -9,8 +9,8 @@ use crate::smooth::bounds;
 use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
 use crate::smooth::missing::Gaps;
-use crate::smooth::report::SolverReport;
-use crate::smooth::run::{Found, Measures, Procedure, Solution};
+use crate::smooth::report::{Measures, SolverReport};
+use crate::smooth::run::{Found, Procedure, Solution};
 use crate::smooth::schedule::Stages;
 use crate::smooth::system::{RegularizedSystem, Solved};
 

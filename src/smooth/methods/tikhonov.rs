@@ -10,9 +10,10 @@ use crate::operators::MassScale;
 #[cfg(doc)]
 use crate::smooth::Smoother;
 use crate::smooth::data_term::Norm;
+use crate::smooth::input::Input;
 use crate::smooth::names::{Equation, MethodName};
-use crate::smooth::report::Smoothed;
-use crate::smooth::run::{About, Input, run};
+use crate::smooth::report::{About, Smoothed};
+use crate::smooth::run::run;
 use crate::smooth::schedule::{Forecast, Schedule};
 use crate::smooth::systems::Systems;
 use crate::smooth::unconstrained::UnconstrainedComponents;
