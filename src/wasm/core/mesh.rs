@@ -5,11 +5,13 @@ use wasm_bindgen::prelude::*;
 
 use super::options::{Constraining, from_rule};
 use super::reports;
+use super::watching::Watching;
 use crate::error::{Error, FieldError, OptionError, OutOfMemory};
 use crate::mesh::{self, TriMesh, WeldOptions};
 use crate::operators::{self, LaplacianWeights, MassOptions};
 use crate::smooth::{self, Unconstrained};
 use crate::support::memory;
+use crate::support::watch::Watch;
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
@@ -156,11 +158,15 @@ impl RawTriMesh {
         constraints: &JsValue,
         options: &JsValue,
     ) -> Result<JsValue, Thrown> {
-        let channels = read("", options, |record| record.integer("channels").unwrap_or(1) as usize)?;
+        let (channels, watching) =
+            read("", options, |record| (record.integer("channels").unwrap_or(1) as usize, Watching::read(record)))?;
         let constraining = Constraining::read(constraints)?;
         let constraints = constraining.constraints(Unconstrained::Keep);
         let values = floats(values)?;
-        let vertices = smooth::constrained_vertices(&self.mesh, &values, channels, &constraints).map_err(from_rule)?;
+        let find = |watch: &Watch<'_>| {
+            smooth::constrained_vertices(&self.mesh, &values, channels, &constraints, watch).map_err(from_rule)
+        };
+        let vertices = watching.run(find)?;
         Ok(array(&vertices)?)
     }
 
