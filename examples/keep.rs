@@ -14,7 +14,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut smoother = Smoother::new(&file.mesh, SmootherOptions { weights, ..Default::default() })?;
     let features = Features::Persistence(Threshold::Relative(0.1));
     let constraints = Constraints { features, stars: true, unconstrained: Unconstrained::Error };
-    let options = InterpolateOptions { constraints, energy: Energy::Harmonic, channels: 1 };
+    let options =
+        InterpolateOptions { constraints, energy: Energy::Harmonic, channels: 1, ..InterpolateOptions::default() };
     let smoothed = smoother.interpolate(field, &options)?;
     let report = &smoothed.reports[0];
     println!(

@@ -103,16 +103,23 @@ impl From<OutOfMemory> for Error {
     }
 }
 
-/// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names.
+/// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names. Fields behind a
+/// semicolon are for the message alone.
 macro_rules! stage_error {
     ($(#[$meta:meta])* $name:ident {
-        $($(#[$variant_meta:meta])* $variant:ident { $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)? } => $message:literal,)*
+        $($(#[$variant_meta:meta])* $variant:ident {
+            $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)?
+            $(; $($(#[$hidden_meta:meta])* $hidden:ident : $hidden_ty:ty),* $(,)?)?
+        } => $message:literal,)*
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
         pub enum $name {
-            $($(#[$variant_meta])* $variant { $($(#[$field_meta])* $field: $ty),* },)*
+            $($(#[$variant_meta])* $variant {
+                $($(#[$field_meta])* $field: $ty,)*
+                $($($(#[$hidden_meta])* $hidden: $hidden_ty,)*)?
+            },)*
         }
 
         impl $name {
@@ -128,7 +135,7 @@ macro_rules! stage_error {
             #[must_use]
             pub fn detail(&self) -> Vec<(&'static str, Detail)> {
                 match self {
-                    $(Self::$variant { $($field),* } => vec![$((stringify!($field), Detail::from($field.clone()))),*],)*
+                    $(Self::$variant { $($field,)* .. } => vec![$((stringify!($field), Detail::from($field.clone()))),*],)*
                 }
             }
         }
@@ -136,7 +143,7 @@ macro_rules! stage_error {
         impl fmt::Display for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
-                    $(Self::$variant { $($field),* } => {
+                    $(Self::$variant { $($field,)* $($($hidden,)*)? } => {
                         $(let _ = $field;)*
                         write!(f, $message)
                     })*
@@ -329,8 +336,10 @@ stage_error! {
             /// Length that fits.
             expected: usize,
             /// Length that came.
-            actual: usize,
-        } => "{expected} values are needed, one per vertex and channel, but there are {actual}",
+            actual: usize;
+            /// What may have been meant.
+            hint: &'static str,
+        } => "{expected} values are needed, one per vertex and channel, but there are {actual}{hint}",
         /// A value is NaN or infinite.
         NonFiniteValue {
             /// The vertex.
@@ -410,7 +419,7 @@ stage_error! {
         NotPositiveDefinite {
             /// The column, hence the unknown.
             column: usize,
-        } => "the matrix is not numerically positive definite at unknown {column} (on a mesh: that vertex); a larger epsilon helps, or, where triangles are very thin, the weights `intrinsicDelaunay`",
+        } => "the matrix is not numerically positive definite at unknown {column}",
         /// A preconditioner turned a residual by a right angle or more.
         IndefinitePreconditioner {
             /// Iterations done.
@@ -442,7 +451,7 @@ stage_error! {
             component: usize,
             /// That vertex.
             vertex: u32,
-        } => "component {component} of the mesh, with vertex {vertex}, has no constrained vertex; constrain one of its vertices, or choose to keep its values or their mean (option `unconstrained`)",
+        } => "component {component} of the mesh, with vertex {vertex}, has no constrained vertex, or no value where missing ones are to be filled in; constrain one of its vertices, or choose to keep its values or their mean (option `unconstrained`)",
         /// Not one weight per constrained vertex.
         LengthMismatch {
             /// Number of constrained vertices.
@@ -457,6 +466,18 @@ stage_error! {
             /// The constrained vertex.
             vertex: u32,
         } => "the weight of vertex {vertex} (number {index}) is not positive and finite",
+        /// The system of a smoothing is not positive definite to the precision of a factor.
+        NotPositiveDefinite {
+            /// A vertex where that is seen.
+            column: usize,
+        } => "the system is not numerically positive definite at vertex {column}; a larger epsilon helps, where triangles are very thin the weights `intrinsicDelaunay`, and where vertices are closer than a millionth of the mesh's diagonal to weld them with a tolerance",
+        /// The solution of a smoothing did not come to its accuracy.
+        NotConverged {
+            /// Iterations, or steps of refinement, done.
+            iterations: usize,
+            /// Relative residual or correction reached.
+            residual: f64,
+        } => "not converged after {iterations} iterations: {residual:e} reached; a larger epsilon helps, where triangles are very thin the weights `intrinsicDelaunay`, and where vertices are closer than a millionth of the mesh's diagonal to weld them with a tolerance",
         /// The steps of a filter make values grow beyond all bounds.
         Diverged {
             /// Steps taken.
@@ -513,6 +534,18 @@ stage_error! {
             /// The class.
             object: String,
         } => "this {object} was freed",
+    }
+}
+
+impl FieldError {
+    /// So many values are no field on a mesh with so many vertices and triangles.
+    pub(crate) fn length_mismatch(expected: usize, actual: usize, triangles: usize) -> Self {
+        let hint = if actual == triangles && triangles > 0 {
+            ": one per triangle; average the values of the triangles around each vertex"
+        } else {
+            ""
+        };
+        Self::LengthMismatch { expected, actual, hint }
     }
 }
 

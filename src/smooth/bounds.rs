@@ -5,9 +5,9 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::routes::Mass;
+use super::data_term::Mass;
 
-/// Of (LᵀWL + εB) x = εBf, given a lower bound λ of the smallest eigenvalue of the matrix A: √(ε‖B‖/λ), or √(‖B‖‖B⁻¹‖), since
+/// The factor of (LᵀWL + εB) x = εBf, given a lower bound λ of the smallest eigenvalue of the matrix A: √(ε‖B‖/λ), or √(‖B‖‖B⁻¹‖), since
 /// ‖x − x_e‖_B ≤ ‖e‖_B, whichever is less. For B = I it is 1 and attained by constants.
 ///
 /// The paper has ε‖B‖/λ. As A is at least εB, A^(−1/2) (εB)^(1/2) has a norm of at most 1, so that the root of it bounds
@@ -18,7 +18,7 @@ pub(super) fn regularized(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue
         Mass::Diagonal(masses) => (masses.clone(), 1.0),
         // Rows of the Galerkin matrix sum to the lumped masses, and a quarter of these is the least it can be: the matrix of
         // one triangle has the eigenvalues |t|/12 · {1, 1, 4}, the lumped one |t|/12 · {4, 4, 4}.
-        Mass::Matrix(_) => (mass.times(&vec![1.0; unknowns]), 0.25),
+        Mass::Matrix(_) | Mass::Partial(_) => (mass.times(&vec![1.0; unknowns]), 0.25),
     };
     let largest = masses.iter().fold(0.0_f64, |largest, &m| largest.max(m));
     let smallest = share * masses.iter().fold(f64::INFINITY, |smallest, &m| smallest.min(m));
@@ -27,7 +27,7 @@ pub(super) fn regularized(mass: &Mass, unknowns: usize, epsilon: f64, eigenvalue
     finite(by_condition.min(by_eigenvalue).sqrt())
 }
 
-/// Of min ‖A_F g + A_I f_I‖ with the values f_I fixed: √(1 + (‖A_I‖/σ)²), where σ is the smallest singular value of A_F.
+/// The factor of min ‖A_F g + A_I f_I‖ with the values f_I fixed: √(1 + (‖A_I‖/σ)²), where σ is the smallest singular value of A_F.
 pub(super) fn interpolation(fixed: f64, singular_value: Option<f64>) -> Option<f64> {
     singular_value.and_then(|sigma| {
         let ratio = fixed / sigma;
@@ -35,7 +35,7 @@ pub(super) fn interpolation(fixed: f64, singular_value: Option<f64>) -> Option<f
     })
 }
 
-/// Of ((I − μK)(I − λK))^N with K = D⁻¹L, for the diagonal D of L and the steps [λ, μ]. Rows without a positive diagonal keep
+/// The factor of ((I − μK)(I − λK))^N with K = D⁻¹L, for the diagonal D of L and the steps [λ, μ]. Rows without a positive diagonal keep
 /// their values.
 ///
 /// Where L is symmetric, K is similar to D^(−½)LD^(−½), which is so too, and its eigenvalues lie between 0 and ‖K‖_∞: the
@@ -50,7 +50,7 @@ pub(super) fn low_pass(
 ) -> Option<f64> {
     let n = diagonal.len();
     let (mut rows, mut columns) = (vec![0.0_f64; n], vec![0.0_f64; n]);
-    // A row that keeps its value though others pull at it is a row of no symmetric matrix.
+    // A row that keeps its value though others depend on it is a row of no symmetric matrix.
     let mut is_similar = is_symmetric;
     for (i, j, &value) in laplacian.triplet_iter() {
         if i != j && diagonal[i] > 0.0 {
@@ -96,7 +96,7 @@ fn largest_response([lambda, mu]: [f64; 2], largest: f64) -> f64 {
     response(largest).max(between).max(1.0)
 }
 
-/// By squaring, in an order of its own: that of `powi` depends on the platform.
+/// A power by squaring, in an order of its own: that of `powi` depends on the platform.
 fn power(base: f64, exponent: usize) -> f64 {
     let (mut result, mut square, mut left) = (1.0, base, exponent);
     while left > 0 {
@@ -130,7 +130,7 @@ pub(super) fn norm_of_columns(
     (largest_row * largest_column).sqrt()
 }
 
-/// Vertices that no system reaches keep their values, or go to a mean: no factor is less than one.
+/// Vertices that are not active keep their values, or go to a mean: no factor is less than one.
 fn finite(factor: f64) -> Option<f64> {
     factor.is_finite().then(|| factor.max(1.0))
 }

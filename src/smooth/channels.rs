@@ -1,6 +1,8 @@
 //! Fields with several values per vertex: taken apart, normalised, and put together again.
 
-use super::{Phase, Progress};
+use std::sync::Arc;
+
+use super::missing::Gaps;
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::mesh::{LinkKind, TriMesh};
@@ -12,9 +14,11 @@ pub(super) const TOGETHER: usize = 4;
 /// One channel of the input.
 #[derive(Debug)]
 pub(super) struct Channel {
+    /// NaN where values are missing.
     pub(super) values: Vec<f64>,
     pub(super) range: ValueRange,
-    /// (value − min)/(max − min); zero for a constant, and at isolated vertices, which take no part in the range.
+    /// (value − min)/(max − min); zero for a constant, where values are missing, and at isolated vertices, which take no part in the
+    /// range.
     pub(super) normalized: Vec<f64>,
 }
 
@@ -23,14 +27,16 @@ impl Channel {
         let length = range.length();
         let kinds = mesh.connectivity().link_kinds();
         let counts = |kind: LinkKind| length > 0.0 && kind != LinkKind::Isolated;
-        let scaled = |(v, &kind): (&f64, &LinkKind)| if counts(kind) { (v - range.min) / length } else { 0.0 };
+        let scaled = |(v, &kind): (&f64, &LinkKind)| {
+            if counts(kind) && !v.is_nan() { (v - range.min) / length } else { 0.0 }
+        };
         let normalized = values.iter().zip(kinds).map(scaled).collect();
         Self { values, range, normalized }
     }
 
     /// Normalised values back in the units of the input. Only `changed` vertices can have new ones: the others keep theirs to the
     /// last bit.
-    pub(super) fn restored(&self, x: &[f64], changed: &[u32]) -> Vec<f64> {
+    pub(super) fn restored<'a>(&self, x: &[f64], changed: impl Iterator<Item = &'a u32>) -> Vec<f64> {
         let mut values = self.values.clone();
         for &v in changed {
             values[v as usize] = self.range.min + self.range.length() * x[v as usize];
@@ -44,33 +50,52 @@ impl Channel {
 pub(super) struct Channels<'a> {
     interleaved: &'a [f64],
     ranges: Vec<ValueRange>,
+    /// The vertices whose values are missing in some channel, ascending; nothing where none may be.
+    missing: Arc<[u32]>,
 }
 
 impl<'a> Channels<'a> {
     /// # Errors
     /// `InvalidOption` for no channels at all; `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize, gaps: Option<&Gaps<'_>>) -> Result<Self> {
         let n = mesh.vertex_count();
         if channels == 0 {
-            let expected = "a positive integer".to_owned();
-            return Err(OptionError::InvalidOption { option: "channels".to_owned(), expected }.into());
+            return Err(OptionError::invalid("channels", "a positive integer").into());
         }
         if n.checked_mul(channels) != Some(values.len()) {
             let expected = n.saturating_mul(channels);
-            return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
+            return Err(FieldError::length_mismatch(expected, values.len(), mesh.triangle_count()).into());
         }
-        let range = |c| Ok(value_range(mesh.connectivity(), &column(values, c, channels))?);
-        let ranges = (0..channels).map(range).collect::<Result<_>>()?;
-        Ok(Self { interleaved: values, ranges })
+        let missing = gaps.map_or_else(|| [].into(), |gaps| Arc::clone(&gaps.missing));
+        let mut all = Self { interleaved: values, ranges: Vec::new(), missing };
+        all.ranges = (0..channels).map(|c| all.range(mesh, c, channels)).collect::<Result<_>>()?;
+        Ok(all)
+    }
+
+    /// The range of the values that there are.
+    fn range(&self, mesh: &TriMesh, channel: usize, channels: usize) -> Result<ValueRange> {
+        let mut values = column(self.interleaved, channel, channels);
+        if let Some(&first) = self.missing.first() {
+            // Another value stands for each one that is missing: that of a vertex of a triangle, if there is one.
+            let kinds = mesh.connectivity().link_kinds();
+            let has = |&v: &usize| self.missing.binary_search(&(v as u32)).is_err();
+            let example = (0..values.len()).filter(has).max_by_key(|&v| kinds[v] != LinkKind::Isolated);
+            let Some(example) = example else { return Err(FieldError::NonFiniteValue { vertex: first }.into()) };
+            let value = values[example];
+            self.missing.iter().for_each(|&v| values[v as usize] = value);
+        }
+        Ok(value_range(mesh.connectivity(), &values)?)
     }
 
     pub(super) fn count(&self) -> usize {
         self.ranges.len()
     }
 
-    /// The values of one channel.
+    /// The values of one channel, NaN where they are missing.
     pub(super) fn values(&self, channel: usize) -> Vec<f64> {
-        column(self.interleaved, channel, self.count())
+        let mut values = column(self.interleaved, channel, self.count());
+        self.missing.iter().for_each(|&v| values[v as usize] = f64::NAN);
+        values
     }
 
     /// A few channels at a time: the first one's number, and the channels.
@@ -81,15 +106,9 @@ impl<'a> Channels<'a> {
         })
     }
 
-    /// Tells the progress with some channels as that with all of them.
-    pub(super) fn share_of_progress(
-        &self,
-        first: usize,
-        count: usize,
-        progress: Progress<'_>,
-    ) -> impl FnMut(Phase, f64) {
-        let all = self.count() as f64;
-        move |phase, fraction| progress(phase, (first as f64 + fraction * count as f64) / all)
+    /// How many groups there are.
+    pub(super) fn group_count(&self) -> usize {
+        self.count().div_ceil(TOGETHER)
     }
 
     /// The input, for results to be written over it.

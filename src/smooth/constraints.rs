@@ -1,11 +1,15 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
+use super::active::ActiveVertices;
 use super::channels::{Channel, Channels};
-use super::system::Reach;
-use crate::error::{Result, SmoothError};
+use super::input::Input;
+use super::missing::Gaps;
+use super::schedule::Stages;
+use crate::error::{FieldError, MeshError, Result};
 use crate::field::{Features, ScalarField, feature_points, with_stars};
 use crate::mesh::TriMesh;
-use crate::support::watch::Watch;
+use crate::support::named::named;
+use crate::support::watch::{Phase, Watch};
 
 /// What becomes of a component of the mesh without a constrained vertex, where the equations say nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,34 +17,53 @@ pub enum Unconstrained {
     /// An error with the component. The default.
     #[default]
     Error,
-    /// Its values stay.
+    /// Its values stay, also missing ones.
     Keep,
-    /// All its vertices get the mean of its values.
+    /// All its vertices get the mean of its values; where all of them are missing, the mean of all values that there are.
     Mean,
 }
+
+named! { Unconstrained { Error = "error", Keep = "keep", Mean = "mean" } }
 
 /// Which vertices are constrained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constraints<'a> {
-    /// The feature points. With several channels, those of all of them together.
+    /// The feature points. With several channels, those of all of them together. Default none.
     pub features: Features<'a>,
     /// Whether their 1-stars are constrained, too: what interpolation needs to keep critical points with their types.
+    /// Default false.
     pub stars: bool,
     /// Components without a constrained vertex. Default an error.
     pub unconstrained: Unconstrained,
 }
 
-/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
+impl Default for Constraints<'_> {
+    fn default() -> Self {
+        Self { features: Features::Vertices(&[]), stars: false, unconstrained: Unconstrained::default() }
+    }
+}
+
+/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them. Vertices
+/// at which the value of some channel is missing are none of them, and rules look at the triangles that have three values.
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`.
+/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`; where values are missing `MissingValue` and
+/// `EmptyMesh`, too; `Cancelled`.
 pub fn constrained_vertices(
     mesh: &TriMesh,
     values: &[f64],
     channels: usize,
     constraints: &Constraints<'_>,
+    watch: &Watch<'_>,
 ) -> Result<Vec<u32>> {
-    Ok(ConstraintSet::new(mesh, &Channels::new(mesh, values, channels)?, constraints)?.vertices)
+    Ok(ConstraintSet::found(mesh, &Channels::new(mesh, values, channels, None)?, None, constraints, watch)?.vertices)
+}
+
+impl Constraints<'_> {
+    /// Whether the vertices are to be found by a rule.
+    pub(super) fn is_rule(&self) -> bool {
+        !matches!(self.features, Features::Vertices(_))
+    }
 }
 
 /// The vertices that the rules came to.
@@ -53,86 +76,61 @@ pub(super) struct ConstraintSet {
 }
 
 impl ConstraintSet {
-    pub(super) fn new(mesh: &TriMesh, channels: &Channels<'_>, constraints: &Constraints<'_>) -> Result<Self> {
+    /// Rules look at the part of the mesh that has values, and vertices without values are not constrained.
+    pub(super) fn new(input: &Input<'_>, constraints: &Constraints<'_>, stages: &mut Stages<'_, '_>) -> Result<Self> {
+        if constraints.is_rule() {
+            stages.begin(Phase::Field, 0)?;
+        }
+        Self::found(&input.operators.mesh, &input.channels, input.gaps.as_ref(), constraints, stages.watch)
+    }
+
+    fn found(
+        mesh: &TriMesh,
+        channels: &Channels<'_>,
+        gaps: Option<&Gaps<'_>>,
+        constraints: &Constraints<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         let mut features = Vec::new();
-        for c in 0..channels.count() {
-            let values = channels.values(c);
-            let field = [ScalarField::new(mesh, &values)?];
-            features.extend(feature_points(&field, &constraints.features, &Watch::none())?);
-            if matches!(constraints.features, Features::Vertices(_)) {
-                break;
+        match (&constraints.features, gaps) {
+            (Features::Vertices(vertices), _) => {
+                let count = mesh.vertex_count();
+                for &vertex in *vertices {
+                    if vertex as usize >= count {
+                        return Err(FieldError::IndexOutOfBounds { index: vertex, vertices: count }.into());
+                    }
+                    if gaps.is_some_and(|gaps| !gaps.has_value(vertex)) {
+                        return Err(FieldError::MissingValue { vertex }.into());
+                    }
+                }
+                features.extend_from_slice(vertices);
+            }
+            (rule, None) => {
+                for c in 0..channels.count() {
+                    let values = channels.values(c);
+                    features.extend(feature_points(&[ScalarField::new(mesh, &values)?], rule, watch)?);
+                }
+            }
+            (rule, Some(gaps)) => {
+                let Some(known) = gaps.known else {
+                    return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into());
+                };
+                for c in 0..channels.count() {
+                    let values = known.gather(&channels.values(c), 1);
+                    let field = ScalarField::new(&known.operators.mesh, &values)?;
+                    let found = feature_points(&[field], rule, watch)?;
+                    features.extend(found.into_iter().map(|v| known.vertices[v as usize]));
+                }
             }
         }
         features.sort_unstable();
         features.dedup();
-        let vertices = if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
+        let mut vertices =
+            if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
+        if let Some(gaps) = gaps {
+            vertices.retain(|&v| gaps.has_value(v));
+        }
         Ok(Self { features, vertices })
-    }
-}
-
-/// The components that have no constrained vertex: their vertices are no unknowns.
-#[derive(Debug)]
-pub(super) struct LeftOut {
-    /// Per component.
-    is_left_out: Vec<bool>,
-    takes_mean: bool,
-}
-
-impl LeftOut {
-    /// # Errors
-    /// `Unconstrained` with the first such component, where that is an error.
-    pub(super) fn new(reach: &Reach, set: &ConstraintSet, unconstrained: Unconstrained) -> Result<Self, SmoothError> {
-        let mut is_left_out = vec![true; reach.first_vertices().len()];
-        for &v in &set.vertices {
-            if let Some(component) = reach.component(v) {
-                is_left_out[component] = false;
-            }
-        }
-        if unconstrained == Unconstrained::Error
-            && let Some(component) = is_left_out.iter().position(|&left_out| left_out)
-        {
-            return Err(SmoothError::Unconstrained { component, vertex: reach.first_vertices()[component] });
-        }
-        Ok(Self { is_left_out, takes_mean: unconstrained == Unconstrained::Mean })
-    }
-
-    /// Whether no component is left out.
-    pub(super) fn is_empty(&self) -> bool {
-        !self.is_left_out.contains(&true)
-    }
-
-    /// The vertices of components that are not left out.
-    pub(super) fn remaining(&self, reach: &Reach) -> Vec<u32> {
-        let remains = |v: u32| reach.component(v).is_some_and(|component| !self.is_left_out[component]);
-        reach.active().iter().copied().filter(|&v| remains(v)).collect()
-    }
-
-    /// Writes what becomes of the components left out into normalised values.
-    pub(super) fn write(&self, reach: &Reach, x: &mut [f64]) {
-        if !self.takes_mean || self.is_empty() {
-            return;
-        }
-        let mut sums = vec![(0.0, 0_u32); self.is_left_out.len()];
-        for &v in reach.active() {
-            if let Some(component) = reach.component(v) {
-                let (sum, count) = &mut sums[component];
-                *sum += x[v as usize];
-                *count += 1;
-            }
-        }
-        for &v in reach.active() {
-            if let Some(component) = reach.component(v)
-                && self.is_left_out[component]
-            {
-                let (sum, count) = sums[component];
-                x[v as usize] = sum / f64::from(count);
-            }
-        }
-    }
-
-    /// Whether a vertex gets another value than it had, though it is no unknown.
-    pub(super) fn moves(&self, reach: &Reach, vertex: u32) -> bool {
-        self.takes_mean && reach.component(vertex).is_some_and(|component| self.is_left_out[component])
     }
 }
 
@@ -140,22 +138,22 @@ impl LeftOut {
 /// for rounding, which would have critical points; so these values are written as they are, into the normalised ones and the
 /// others.
 pub(super) fn level_constant_components(
-    reach: &Reach,
+    active: &ActiveVertices,
     set: &ConstraintSet,
     channel: &Channel,
     x: &mut [f64],
     smoothed: &mut [f64],
 ) {
-    let mut example = vec![None; reach.first_vertices().len()];
+    let mut example = vec![None; active.first_vertices().len()];
     let mut varies = vec![false; example.len()];
     for &v in &set.vertices {
-        if let Some(component) = reach.component(v) {
+        if let Some(component) = active.component(v) {
             let first = *example[component].get_or_insert(v);
             varies[component] |= channel.values[v as usize] != channel.values[first as usize];
         }
     }
-    for &v in reach.active() {
-        if let Some(component) = reach.component(v)
+    for &v in active.list() {
+        if let Some(component) = active.component(v)
             && let Some(first) = example[component]
             && !varies[component]
         {

@@ -1,5 +1,7 @@
 //! The maximum principle, and what of it can be certified for a harmonic interpolation.
 
+use std::sync::Arc;
+
 use nalgebra_sparse::CscMatrix;
 
 use crate::mesh::Connectivity;
@@ -22,7 +24,7 @@ pub struct MaximumPrinciple {
     pub smallest_weight: f64,
     /// Free vertices that are extrema among the neighbours that L couples them with, beyond rounding (1e-12 of the range).
     pub extrema: usize,
-    /// Free vertices that are extrema, likewise, among the neighbours along the edges of the mesh.
+    /// Free vertices that are extrema beyond rounding among the neighbours along the edges of the mesh.
     pub mesh_extrema: usize,
 }
 
@@ -31,14 +33,14 @@ pub struct MaximumPrinciple {
 pub(super) struct Certifier<'a> {
     connectivity: &'a Connectivity,
     /// Ascending.
-    free: &'a [u32],
+    free: Arc<[u32]>,
     smallest_weight: f64,
     /// The neighbours of free vertices in L, as (vertex, neighbour); nothing where they are those along the edges of the mesh.
     couplings: Option<Vec<[u32; 2]>>,
 }
 
 impl<'a> Certifier<'a> {
-    pub(super) fn new(connectivity: &'a Connectivity, laplacian: &CscMatrix<f64>, free: &'a [u32]) -> Self {
+    pub(super) fn new(connectivity: &'a Connectivity, laplacian: &CscMatrix<f64>, free: &Arc<[u32]>) -> Self {
         let n = connectivity.vertex_count();
         let mut is_free = vec![false; n];
         free.iter().for_each(|&v| is_free[v as usize] = true);
@@ -69,7 +71,7 @@ impl<'a> Certifier<'a> {
         // The cotangent of a right angle is zero but for rounding, on either side.
         let is_zero = !smallest.is_finite() || smallest.abs() <= f64::EPSILON * largest;
         let smallest_weight = if is_zero { 0.0 } else { smallest };
-        Self { connectivity, free, smallest_weight, couplings }
+        Self { connectivity, free: Arc::clone(free), smallest_weight, couplings }
     }
 
     pub(super) fn certify(&self, x: &[f64]) -> MaximumPrinciple {
@@ -79,7 +81,7 @@ impl<'a> Certifier<'a> {
             sides[a as usize] |= side(difference);
             sides[b as usize] |= side(-difference);
         }
-        let mesh_extrema = count_extrema(&sides, self.free);
+        let mesh_extrema = count_extrema(&sides, &self.free);
         let extrema = match &self.couplings {
             None => mesh_extrema,
             Some(couplings) => {
@@ -87,7 +89,7 @@ impl<'a> Certifier<'a> {
                 for &[vertex, neighbour] in couplings {
                     sides[vertex as usize] |= side(x[neighbour as usize] - x[vertex as usize]);
                 }
-                count_extrema(&sides, self.free)
+                count_extrema(&sides, &self.free)
             }
         };
         MaximumPrinciple { smallest_weight: self.smallest_weight, extrema, mesh_extrema }

@@ -1,37 +1,45 @@
 //! Smoothing: the systems of \[Patane09, section 4\] set up, solved and reported.
 
+mod active;
 mod bounds;
 mod channels;
 mod constraints;
-mod filters;
-mod interpolate;
-mod least_squares;
+mod data_term;
+mod input;
 mod maximum_principle;
+mod method;
+mod methods;
+mod missing;
+mod names;
+mod operators;
 mod options;
-mod regularized;
 mod report;
 mod routes;
+mod run;
+mod schedule;
 mod system;
-mod tikhonov;
+mod systems;
+mod unconstrained;
 
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
-pub use filters::{BilateralOptions, LowPassOptions};
-pub use interpolate::InterpolateOptions;
-pub use least_squares::LeastSquaresOptions;
 pub use maximum_principle::MaximumPrinciple;
-pub use options::{Metric, Operator, Phase, Precision, Progress, SmootherOptions, SolverChoice};
+pub use method::Method;
+pub use methods::{
+    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions, epsilon_for_wavelength,
+};
+pub use names::{Equation, MethodName, Route, UsedPrecision};
+pub use options::{Metric, Operator, Precision, SmootherOptions, SolverChoice};
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
 pub use system::Energy;
-pub use tikhonov::{TikhonovOptions, epsilon_for_wavelength};
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::error::{OptionError, Result};
+use crate::error::Result;
 use crate::mesh::TriMesh;
-use crate::operators::{self, LaplacianWeights};
-use constraints::LeftOut;
-use routes::Manner;
-use system::{FullSystem, Reach, ReducedSystem};
+use crate::support::watch::Watch;
+use method::Masked;
+use operators::Operators;
+use systems::Systems;
 
 /// Smooths fields on one mesh. Holds the operators, the ordering and the symbolic and last numeric factor, so that a new
 /// field costs a solve and a new ε one numeric factorisation.
@@ -52,16 +60,9 @@ use system::{FullSystem, Reach, ReducedSystem};
 /// ```
 #[derive(Debug)]
 pub struct Smoother {
-    mesh: TriMesh,
-    options: SmootherOptions,
-    laplacian: CscMatrix<f64>,
-    reach: Reach,
-    /// With all vertices reached as unknowns.
-    full: Option<FullSystem>,
-    /// Without the components that the last constraints left out.
-    partial: Option<FullSystem>,
-    /// With the vertices that the last constraints left free.
-    reduced: Option<ReducedSystem>,
+    operators: Operators,
+    systems: Systems,
+    masked: Masked,
 }
 
 impl Smoother {
@@ -71,31 +72,63 @@ impl Smoother {
     /// `ZeroWeightSum` for normalised weights; `InapplicableOption` for the finite-element operator with weights other than
     /// cotangent, for which it means nothing.
     pub fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
-        if options.operator == Operator::Fem && options.weights != LaplacianWeights::Cotangent {
-            let reason = "the finite-element operator has cotangent weights".to_owned();
-            return Err(OptionError::InapplicableOption { option: "weights".to_owned(), reason }.into());
-        }
-        let laplacian = operators::laplacian(mesh, options.weights)?;
-        let reach = Reach::new(mesh, &laplacian, options.operator)?;
-        Ok(Self { mesh: mesh.clone(), options, laplacian, reach, full: None, partial: None, reduced: None })
+        let operators = Operators::new(mesh, options)?;
+        Ok(Self { operators, systems: Systems::default(), masked: Masked::default() })
     }
 
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &TriMesh {
-        &self.mesh
+        &self.operators.mesh
     }
 
     /// The options it was made with.
     #[must_use]
     pub fn options(&self) -> SmootherOptions {
-        self.options
+        self.operators.options
     }
 
     /// The Laplacian in use.
     #[must_use]
     pub fn laplacian(&self) -> &CscMatrix<f64> {
-        &self.laplacian
+        &self.operators.laplacian
+    }
+
+    /// Smooths values by a method, watched: what the methods below do, each by its name and unwatched.
+    ///
+    /// # Missing values
+    /// A vertex whose value is NaN in some channel is missing in all of them. With
+    /// [`Missing::Omit`](crate::field::Missing::Omit) the triangles at missing vertices are left out, as if the mesh had a hole
+    /// there: what is smoothed is, to the last bit, the field on [`TriMesh::submesh`]; vertices that have no triangle left keep their
+    /// values, NaN included, and constrained vertices are named as in the whole mesh. With
+    /// [`Missing::Fill`](crate::field::Missing::Fill) smoothness is asked for on the whole mesh, and the data term, or the
+    /// constraints, are those of the other vertices alone: B becomes PBP with the projection P to them. Rules for constraints look at
+    /// the triangles that have three values. A component of the mesh without any value is an error, or what `unconstrained` says.
+    /// Isolated vertices stay as they are. What is found out about a set of missing vertices is kept for the next call.
+    ///
+    /// # Errors
+    /// Those of the method; `Cancelled` where the watcher stops the work, after which everything goes on as if this call had not
+    /// been; `MissingValue` for a constrained vertex without a value, `EmptyMesh` where no triangle has three values, and
+    /// `InapplicableOption` for filters that are asked to fill.
+    ///
+    /// # Example
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use morse_smooth::mesh::shapes;
+    /// use morse_smooth::smooth::{Method, Smoother, SmootherOptions, TikhonovOptions};
+    /// use morse_smooth::{Progress, Watch};
+    /// let mesh = shapes::sphere(3)?;
+    /// let height: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2]).collect();
+    /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let mut stop = |_: Progress| ControlFlow::Break(());
+    /// let method = Method::Tikhonov(TikhonovOptions::default());
+    /// let stopped = smoother.apply(&height, &method, &Watch::new(&mut stop));
+    /// assert_eq!(stopped.map_err(|error| error.code()), Err("Cancelled"));
+    /// assert!(smoother.apply(&height, &method, &Watch::none()).is_ok());
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn apply(&mut self, values: &[f64], method: &Method<'_>, watch: &Watch<'_>) -> Result<Smoothed> {
+        method::apply(&self.operators, &mut self.systems, &mut self.masked, values, method, watch)
     }
 
     /// Solves eq. (3) or (5) of \[Patane09\], or that of [`Operator::Fem`]: see [`TikhonovOptions`].
@@ -107,31 +140,18 @@ impl Smoother {
     ///
     /// # Properties
     /// Constants are kept; T(af + b) = aT(f) + b; Σx = Σf (eq. 3), 1ᵀBx = 1ᵀBf (eq. 5). Isolated vertices, and vertices
-    /// that no operator reaches because all their triangles have zero area, keep their value. Every route refines its
+    /// that no operator acts on because all their triangles have zero area, keep their value. Every route refines its
     /// solution with the residual in factored form, r = εB(f − x) − Lᵀ(Lx), or with that of the complex system, until
     /// corrections are rounding or shrink so fast that the error left is below 1e-16 of the solution (2e-11 with a factor in
     /// single precision).
     ///
     /// # Errors
     /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`; `InvalidOption` for ε or channels; `InapplicableOption` for a
-    /// metric or scale beside the finite-element operator; `ZeroArea` for a mass matrix on a mesh without area;
+    /// metric or scale beside the finite-element operator, and for `unconstrained` where nothing is filled in; `ZeroArea` for a mass matrix on a mesh without area;
     /// `NotPositiveDefinite` (its column is a vertex), `IndefinitePreconditioner`, `NotConverged`, `OutOfMemory` from the
     /// solver. Nothing is lost by them.
     pub fn tikhonov(&mut self, values: &[f64], options: &TikhonovOptions) -> Result<Smoothed> {
-        self.tikhonov_with_progress(values, options, &mut |_, _| {})
-    }
-
-    /// [`Smoother::tikhonov`] that tells how far it is.
-    ///
-    /// # Errors
-    /// As [`Smoother::tikhonov`].
-    pub fn tikhonov_with_progress(
-        &mut self,
-        values: &[f64],
-        options: &TikhonovOptions,
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
-        tikhonov::run(self, values, options, progress)
+        self.apply(values, &Method::Tikhonov(*options), &Watch::none())
     }
 
     /// Interpolates the values of constrained vertices by a smooth field: eq. (6) of \[Patane09\].
@@ -144,7 +164,7 @@ impl Smoother {
     /// # Properties
     /// Constrained values stay to the last bit. With 1-stars every constrained critical point keeps its type. Constants are
     /// kept; T(af + b) = aT(f) + b. An empty set leaves no component constrained, a full one changes nothing; a component whose
-    /// constrained values are all the same gets this value exactly. Vertices that no operator reaches keep theirs. For what harmonic
+    /// constrained values are all the same gets this value exactly. Vertices that no operator acts on keep theirs. For what harmonic
     /// interpolation promises about other extrema see [`MaximumPrinciple`].
     ///
     /// # Errors
@@ -156,36 +176,23 @@ impl Smoother {
     /// ```
     /// use morse_smooth::field::{DeltaOptions, Features};
     /// use morse_smooth::mesh::shapes::{self, Random};
-    /// use morse_smooth::smooth::{Constraints, Energy, InterpolateOptions, Smoother, SmootherOptions, Unconstrained};
+    /// use morse_smooth::smooth::{Constraints, InterpolateOptions, Smoother, SmootherOptions};
     /// let mesh = shapes::sphere(3)?;
     /// let mut noise = Random::new(1);
     /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
     /// let features = Features::CriticalPoints(DeltaOptions::default());
-    /// let constraints = Constraints { features, stars: true, unconstrained: Unconstrained::Error };
+    /// let constraints = Constraints { features, stars: true, ..Constraints::default() };
     /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
-    /// let options = InterpolateOptions { constraints, energy: Energy::Harmonic, channels: 1 };
+    /// let options = InterpolateOptions { constraints, ..InterpolateOptions::default() };
     /// let report = smoother.interpolate(&field, &options)?.reports.remove(0);
     /// assert_eq!(report.preserved, report.constrained_critical_points);
     /// # Ok::<(), morse_smooth::Error>(())
     /// ```
     pub fn interpolate(&mut self, values: &[f64], options: &InterpolateOptions<'_>) -> Result<Smoothed> {
-        self.interpolate_with_progress(values, options, &mut |_, _| {})
+        self.apply(values, &Method::Interpolate(*options), &Watch::none())
     }
 
-    /// [`Smoother::interpolate`] that tells how far it is.
-    ///
-    /// # Errors
-    /// As [`Smoother::interpolate`].
-    pub fn interpolate_with_progress(
-        &mut self,
-        values: &[f64],
-        options: &InterpolateOptions<'_>,
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
-        interpolate::run(self, values, options, progress)
-    }
-
-    /// Pulls some vertices towards their values and smooths the rest: eq. (7) of \[Patane09\].
+    /// Fits some vertices to their values and smooths the rest: eq. (7) of \[Patane09\].
     ///
     /// # Definition
     /// (LᵀL + εΔ) x = εΔf, where the diagonal matrix Δ holds the weights of the constrained vertices and zeros elsewhere (the
@@ -198,20 +205,7 @@ impl Smoother {
     /// # Errors
     /// As [`Smoother::interpolate`]; `LengthMismatch` and `InvalidWeight` for the weights.
     pub fn least_squares(&mut self, values: &[f64], options: &LeastSquaresOptions<'_>) -> Result<Smoothed> {
-        self.least_squares_with_progress(values, options, &mut |_, _| {})
-    }
-
-    /// [`Smoother::least_squares`] that tells how far it is.
-    ///
-    /// # Errors
-    /// As [`Smoother::least_squares`].
-    pub fn least_squares_with_progress(
-        &mut self,
-        values: &[f64],
-        options: &LeastSquaresOptions<'_>,
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
-        least_squares::run(self, values, options, progress)
+        self.apply(values, &Method::LeastSquares(*options), &Watch::none())
     }
 
     /// Filters by repeated averaging with the neighbours: diffusion \[Patane09, sections 2.2 and 4.1\], or, with a negative μ, the
@@ -247,20 +241,7 @@ impl Smoother {
     /// # Ok::<(), morse_smooth::Error>(())
     /// ```
     pub fn low_pass(&self, values: &[f64], options: &LowPassOptions) -> Result<Smoothed> {
-        self.low_pass_with_progress(values, options, &mut |_, _| {})
-    }
-
-    /// [`Smoother::low_pass`] that tells how far it is.
-    ///
-    /// # Errors
-    /// As [`Smoother::low_pass`].
-    pub fn low_pass_with_progress(
-        &self,
-        values: &[f64],
-        options: &LowPassOptions,
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
-        filters::low_pass(self, values, options, progress)
+        self.filter(values, &Method::LowPass(*options))
     }
 
     /// Filters by averages over balls, weighted by distance and by difference of value: what differs much counts little, so
@@ -292,77 +273,18 @@ impl Smoother {
     /// let mut noise = Random::new(1);
     /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
     /// let smoother = Smoother::new(&mesh, SmootherOptions::default())?;
-    /// let options = BilateralOptions { iterations: 3, radius: 0.4, sigma_distance: 0.2, sigma_value: 0.3, channels: 1 };
+    /// let lengths = BilateralOptions { radius: 0.4, sigma_distance: 0.2, sigma_value: 0.3, ..BilateralOptions::default() };
+    /// let options = BilateralOptions { iterations: 3, ..lengths };
     /// let report = smoother.bilateral(&field, &options)?.reports.remove(0);
     /// assert!(report.after.minima < report.before.minima);
     /// # Ok::<(), morse_smooth::Error>(())
     /// ```
     pub fn bilateral(&self, values: &[f64], options: &BilateralOptions) -> Result<Smoothed> {
-        self.bilateral_with_progress(values, options, &mut |_, _| {})
+        self.filter(values, &Method::Bilateral(*options))
     }
 
-    /// [`Smoother::bilateral`] that tells how far it is.
-    ///
-    /// # Errors
-    /// As [`Smoother::bilateral`].
-    pub fn bilateral_with_progress(
-        &self,
-        values: &[f64],
-        options: &BilateralOptions,
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
-        filters::bilateral(self, values, options, progress)
-    }
-
-    fn reach(&self) -> &Reach {
-        &self.reach
-    }
-
-    /// How systems are to be solved; bounds are the same for all channels.
-    fn manner(&self, is_first: bool) -> Manner {
-        Manner {
-            choice: self.options.solver,
-            precision: self.options.precision,
-            symmetric: self.options.weights.is_symmetric(),
-            bounds: self.options.bounds && is_first,
-        }
-    }
-
-    /// No two factors are kept: each can take most of the memory. Analyses stay.
-    fn drop_factors(&mut self) {
-        self.full.iter_mut().for_each(FullSystem::drop_factor);
-        self.partial.iter_mut().for_each(FullSystem::drop_factor);
-        self.reduced.iter_mut().for_each(ReducedSystem::drop_factor);
-    }
-
-    fn take_full_system(&mut self) -> Result<FullSystem> {
-        let known = self.full.take();
-        self.drop_factors();
-        match known {
-            Some(system) => Ok(system),
-            None => FullSystem::new(&self.mesh, &self.laplacian, self.options.operator, self.reach.active().to_vec()),
-        }
-    }
-
-    fn take_partial_system(&mut self, left_out: &LeftOut) -> Result<FullSystem> {
-        let unknowns = left_out.remaining(&self.reach);
-        let known = self.partial.take();
-        self.drop_factors();
-        match known.filter(|system| system.unknowns() == unknowns) {
-            Some(system) => Ok(system),
-            None => FullSystem::new(&self.mesh, &self.laplacian, self.options.operator, unknowns),
-        }
-    }
-
-    fn take_reduced_system(&mut self, energy: Energy, free: Vec<u32>) -> Result<ReducedSystem> {
-        let known = self.reduced.take();
-        self.drop_factors();
-        match known.filter(|system| system.is_for(energy, &free)) {
-            Some(system) => Ok(system),
-            None => {
-                let symmetric = self.options.weights.is_symmetric();
-                ReducedSystem::new(&self.mesh, &self.laplacian, self.options.operator, symmetric, energy, free)
-            }
-        }
+    /// Applies a method that solves no system, and so has nothing to keep.
+    fn filter(&self, values: &[f64], method: &Method<'_>) -> Result<Smoothed> {
+        method::apply(&self.operators, &mut Systems::default(), &mut Masked::default(), values, method, &Watch::none())
     }
 }

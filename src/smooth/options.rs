@@ -1,8 +1,9 @@
-//! What a [`Smoother`] is made with, and what it tells while it works.
+//! What a [`Smoother`] is made with.
 
 #[cfg(doc)]
 use super::Smoother;
 use crate::operators::LaplacianWeights;
+use crate::support::named::named;
 
 /// Which solver a [`Smoother`] uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -16,6 +17,8 @@ pub enum SolverChoice {
     ConjugateGradient,
 }
 
+named! { SolverChoice { Auto = "auto", Cholesky = "cholesky", ConjugateGradient = "cg" } }
+
 /// The operator whose square is the smoothness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Operator {
@@ -28,6 +31,8 @@ pub enum Operator {
     Fem,
 }
 
+named! { Operator { Paper = "paper", Fem = "fem" } }
+
 /// The precision of factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
@@ -38,6 +43,8 @@ pub enum Precision {
     /// not, the factor is computed in double precision after all.
     Single,
 }
+
+named! { Precision { Double = "double", Single = "single" } }
 
 /// What a [`Smoother`] is made with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,32 +73,4 @@ pub enum Metric {
     Lumped,
 }
 
-/// A step of the work, for progress displays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Phase {
-    /// Ordering and analysing the pattern of L, or of LᵀL once that is assembled; again only where the route changes.
-    Analysis,
-    /// The numeric factorisation; once per ε and metric. Left out where a route has no factor, as analysis is.
-    Factorization,
-    /// Solving and refining.
-    Solve,
-    /// Counting critical points and norms.
-    Report,
-}
-
-impl Phase {
-    /// A short name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Analysis => "analysis",
-            Self::Factorization => "factorization",
-            Self::Solve => "solve",
-            Self::Report => "report",
-        }
-    }
-}
-
-/// Told at the start of every phase, with the fraction of the work that is done; that goes back where a route is given up
-/// for another one.
-pub type Progress<'a> = &'a mut dyn FnMut(Phase, f64);
+named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }

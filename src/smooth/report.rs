@@ -2,12 +2,16 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::Smoother;
 use super::channels::Channel;
 use super::constraints::ConstraintSet;
+use super::input::Input;
 use super::maximum_principle::MaximumPrinciple;
+use super::missing::Part;
+use super::names::{Equation, MethodName, Route, UsedPrecision};
+use super::operators::Operators;
 use super::routes::difference;
 use super::system::{Solution, Solved};
+use super::unconstrained::UnconstrainedComponents;
 use crate::error::{FieldError, Result};
 use crate::field::{
     CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, ScalarField, VertexOrder,
@@ -19,20 +23,24 @@ use crate::support::watch::Watch;
 /// Smoothed values and their reports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Smoothed {
-    /// As long and interleaved as the input, in its units.
+    /// As long and interleaved as the input, in its units. NaN where a value is missing and was not filled in.
     pub values: Vec<f64>,
     /// One per channel.
     pub reports: Vec<SmoothReport>,
 }
 
 /// What a smoothing did to one channel. Norms and errors are of the field normalised to [0, 1] by the range of the input.
+///
+/// Where missing values were left out, all is about the part of the mesh that has values. Where they were filled in, differences are
+/// taken over the vertices that had a value, what was *before* is about the triangles whose three vertices had one, and what is
+/// *after* about all that have one now.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SmoothReport {
-    /// Name of the method.
-    pub method: &'static str,
-    /// The equation of \[Patane09\] solved, `"fem"` for the finite-element operator, or the reference of a filter.
-    pub equation: &'static str,
+    /// The method.
+    pub method: MethodName,
+    /// The equation solved, or the reference of a filter.
+    pub equation: Equation,
     /// The trade-off used; `None` where there is none.
     pub epsilon: Option<f64>,
     /// Number of constrained vertices.
@@ -72,12 +80,10 @@ pub struct SmoothReport {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SolverReport {
-    /// `"complexCholesky"` or `"cholesky"`: a factor, complex on the pattern of L or real on that of LᵀL;
-    /// `"cgComplexCholesky"`: conjugate gradients preconditioned by the complex factor; `"cgMultigrid"`, `"cgJacobi"`:
-    /// without a factor; `"none"` where there was nothing to solve.
-    pub route: &'static str,
-    /// `"double"`, `"single"`, or `"doubleAfterSingle"` where single precision was asked for and was not enough.
-    pub precision: &'static str,
+    /// The route that led to the solution.
+    pub route: Route,
+    /// The precision of the factor.
+    pub precision: UsedPrecision,
     /// Size of the system.
     pub unknowns: usize,
     /// Entries of the factor.
@@ -90,7 +96,7 @@ pub struct SolverReport {
     pub iterations: usize,
 }
 
-/// fᵀLf and ‖Lf‖₂.
+/// How smooth a field is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct SmoothnessEnergies {
@@ -120,55 +126,117 @@ fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
     SmoothnessEnergies { sobolev, laplacian_norm: norm(&image) }
 }
 
-/// What only the method knows of a result.
-pub(super) struct Facts<'a> {
-    pub(super) method: &'static str,
-    pub(super) equation: &'static str,
+/// What reports say of a method, and what it leaves to the loop over channels.
+pub(super) struct About {
+    pub(super) method: MethodName,
+    pub(super) equation: Equation,
     pub(super) epsilon: Option<f64>,
-    pub(super) constraints: Option<&'a ConstraintSet>,
+    pub(super) constraints: Option<ConstraintSet>,
+    /// The components that the equations do not determine, for methods that have such.
+    pub(super) unconstrained: Option<UnconstrainedComponents>,
+}
+
+/// What only the method can measure.
+#[derive(Default)]
+pub(super) struct Measures {
     /// ‖x − f‖_B; nothing for the identity.
     pub(super) metric_norm: Option<f64>,
-    pub(super) perturbation_factor: Option<f64>,
     pub(super) maximum_principle: Option<MaximumPrinciple>,
+}
+
+/// What only the method knows of a result.
+pub(super) struct Facts {
+    pub(super) measures: Measures,
+    pub(super) perturbation_factor: Option<f64>,
     pub(super) solver: SolverReport,
+}
+
+/// What is measured of a field on a mesh or a part of one.
+struct Side {
+    points: CriticalPoints,
+    energies: SmoothnessEnergies,
+}
+
+impl Side {
+    fn new(operators: &Operators, values: &[f64], normalized: &[f64], watch: &Watch<'_>) -> Result<Self> {
+        watch.tick(6 * operators.laplacian.nnz() as u64)?;
+        let energies = energies(&operators.laplacian, normalized);
+        let field = ScalarField::new(&operators.mesh, values)?;
+        let points = critical_points(&field, &DeltaOptions::default(), watch)?;
+        Ok(Self { points, energies })
+    }
+
+    /// On the part of a mesh that has values; vertices are those of the whole.
+    fn of_part(part: &Part, values: &[f64], normalized: &[f64], watch: &Watch<'_>) -> Result<Self> {
+        let (values, normalized) = (part.gather(values, 1), part.gather(normalized, 1));
+        let mut side = Self::new(&part.operators, &values, &normalized, watch)?;
+        for point in &mut side.points.points {
+            point.vertex = part.vertices[point.vertex as usize];
+        }
+        Ok(side)
+    }
+
+    /// Where no triangle has three values.
+    fn empty() -> Self {
+        let counts = CriticalCounts { minima: 0, maxima: 0, saddles: 0, index_sum: Some(0) };
+        let energies = SmoothnessEnergies { sobolev: 0.0, laplacian_norm: 0.0 };
+        Self { points: CriticalPoints { points: Vec::new(), counts }, energies }
+    }
 }
 
 /// Measures a result: x normalised, and the same in the units of the input.
 pub(super) fn measure(
-    smoother: &Smoother,
+    input: &Input<'_>,
+    about: &About,
     channel: &Channel,
     x: &[f64],
     smoothed: &[f64],
-    facts: Facts<'_>,
+    facts: Facts,
+    watch: &Watch<'_>,
 ) -> Result<SmoothReport> {
+    let Input { operators, gaps, .. } = input;
     let f = &channel.normalized;
-    let difference = difference(x, f);
-    let energies_before = energies(&smoother.laplacian, f);
-    let energies_after = energies(&smoother.laplacian, x);
-    let exact = |values: &[f64]| {
-        critical_points(&ScalarField::new(&smoother.mesh, values)?, &DeltaOptions::default(), &Watch::none())
+    let mut difference = difference(x, f);
+    let before = match gaps {
+        None => Side::new(operators, &channel.values, f, watch)?,
+        Some(gaps) => {
+            gaps.missing.iter().for_each(|&v| difference[v as usize] = 0.0);
+            match gaps.known {
+                Some(part) => Side::of_part(part, &channel.values, f, watch)?,
+                None => Side::empty(),
+            }
+        }
     };
-    let (before, after) = (exact(&channel.values)?, exact(smoothed)?);
-    let kept = facts.constraints.map(|set| Kept::new(set, &before, &after));
+    let unfilled: Vec<u32> = match gaps {
+        None => Vec::new(),
+        Some(gaps) => gaps.missing.iter().copied().filter(|&v| smoothed[v as usize].is_nan()).collect(),
+    };
+    let after = if unfilled.is_empty() {
+        Side::new(operators, smoothed, x, watch)?
+    } else {
+        let part = Part::without(&operators.mesh, &unfilled, operators.options)?;
+        Side::of_part(&part, smoothed, x, watch)?
+    };
+    let kept = about.constraints.as_ref().map(|set| Kept::new(set, &before.points, &after.points));
     let l2 = norm(&difference);
     Ok(SmoothReport {
-        method: facts.method,
-        equation: facts.equation,
-        epsilon: facts.epsilon,
-        constraint_count: facts.constraints.map_or(0, |set| set.vertices.len()),
-        before: before.counts,
-        after: after.counts,
+        method: about.method,
+        equation: about.equation,
+        epsilon: about.epsilon,
+        constraint_count: about.constraints.as_ref().map_or(0, |set| set.vertices.len()),
+        before: before.points.counts,
+        after: after.points.counts,
         l_infinity: largest(&difference),
         l2,
-        metric_norm: facts.metric_norm.unwrap_or(l2),
-        laplacian_norm: energies_after.laplacian_norm,
-        sobolev_before: energies_before.sobolev,
-        sobolev_after: energies_after.sobolev,
+        metric_norm: facts.measures.metric_norm.unwrap_or(l2),
+        laplacian_norm: after.energies.laplacian_norm,
+        sobolev_before: before.energies.sobolev,
+        sobolev_after: after.energies.sobolev,
         constrained_critical_points: kept.as_ref().map(|kept| kept.constrained),
         preserved: kept.as_ref().map(|kept| kept.preserved),
         free_extrema: kept.as_ref().map(|kept| kept.free_extrema),
         perturbation_factor: facts.perturbation_factor,
-        maximum_principle: facts.maximum_principle,
+        maximum_principle: facts.measures.maximum_principle,
         solver: facts.solver,
     })
 }
@@ -208,7 +276,7 @@ impl Kept {
 }
 
 impl SolverReport {
-    /// Of one channel.
+    /// How one channel of a system was solved.
     pub(super) fn new(solved: &Solved, solution: &Solution) -> Self {
         Self {
             route: solved.route,
@@ -221,11 +289,11 @@ impl SolverReport {
         }
     }
 
-    /// Of a method that solves no system, or of one where there was nothing to solve.
+    /// What a method reports that solves no system.
     pub(super) fn none(iterations: usize) -> Self {
         Self {
-            route: "none",
-            precision: "double",
+            route: Route::None,
+            precision: UsedPrecision::Double,
             unknowns: 0,
             factor_nonzeros: 0,
             relative_residual: 0.0,

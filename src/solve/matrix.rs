@@ -2,10 +2,10 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::Watch;
 use crate::error::{Cancelled, SolveError};
 use crate::support::csc::valid_csc;
 use crate::support::memory;
+use crate::{Phase, Watch};
 
 /// What a 32-bit address space can give to one matrix or factor beside everything else.
 pub(super) const ADDRESS_SPACE: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
@@ -69,6 +69,8 @@ pub fn transposed_product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
 /// 20,000 neighbours makes 400 million entries.
 pub fn gram(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<CscMatrix<f64>, SolveError> {
     let columns = matrix.ncols();
+    let mut plan = watch.plan(&[(Phase::Analysis, 1.0)]);
+    plan.begin(expected_pairs(matrix) * (2 * TICKS_PER_PAIR + TICKS_PER_MOVE / 2))?;
     // A once more by rows, with counters, and three numbers for every column.
     let before = BYTES_PER_ENTRY * matrix.nnz() + size_of::<usize>() * (2 * matrix.nrows() + 3 * columns);
     memory::ensure(before as u64)?;
@@ -101,7 +103,15 @@ pub fn gram(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<CscMatrix<f64>
     }
     drop(by_rows);
     // … and, because the product is symmetric, reading the columns as rows sorts them.
-    Ok(transposed(columns, (&ends, &met, &sums), watch)?)
+    let product = transposed(columns, (&ends, &met, &sums), watch)?;
+    plan.finish()?;
+    Ok(product)
+}
+
+/// The pairs of entries that share a row, were all rows alike.
+fn expected_pairs(matrix: &CscMatrix<f64>) -> u64 {
+    let entries = matrix.nnz() as u64;
+    entries * (entries / (matrix.nrows() as u64).max(1)).min(64)
 }
 
 /// Counts the entries of AᵀA. Fails where they would not fit the address space, before any of them is computed.

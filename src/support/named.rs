@@ -7,10 +7,13 @@ pub(crate) trait Named: Copy + 'static {
 
     /// The name of a choice.
     fn label(self) -> &'static str;
+
+    /// The choice with this name.
+    fn labelled(name: &str) -> Option<Self>;
 }
 
 /// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
-/// files are, `any case` stands before them.
+/// files are, `any case` stands before them. The feature `serde` writes them as their names.
 ///
 /// ```ignore
 /// named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }
@@ -45,11 +48,22 @@ macro_rules! named {
             }
         }
 
+        #[cfg(feature = "serde")]
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> core::result::Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.name())
+            }
+        }
+
         impl crate::support::named::Named for $type {
             const CHOICES: &'static [Self] = Self::ALL;
 
             fn label(self) -> &'static str {
                 self.name()
+            }
+
+            fn labelled(name: &str) -> Option<Self> {
+                Self::from_name(name)
             }
         }
     };

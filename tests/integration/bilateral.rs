@@ -74,8 +74,8 @@ fn bilateral_agrees_with_a_double_loop() {
                 let wrong = error(&f, &found.values, &reference_bilateral(&mesh, &f, &options));
                 assert!(wrong < 1e-13, "{name} {options:?}: {wrong:e}");
                 let report = &found.reports[0];
-                assert_eq!((report.method, report.equation), ("bilateral", "[15]"));
-                assert_eq!((report.solver.route, report.solver.iterations), ("none", iterations));
+                assert_eq!((report.method.name(), report.equation.name()), ("bilateral", "[15]"));
+                assert_eq!((report.solver.route.name(), report.solver.iterations), ("none", iterations));
                 assert_eq!(report.perturbation_factor, None);
             }
         }

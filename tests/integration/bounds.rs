@@ -23,11 +23,20 @@ fn run(smoother: &mut Smoother, call: &Call, f: &[f64]) -> morse_smooth::Result<
         Call::Tikhonov(options) => smoother.tikhonov(f, options),
         Call::Interpolate(energy, set) => {
             let constraints = named(set, Unconstrained::Keep);
-            smoother.interpolate(f, &InterpolateOptions { constraints, energy: *energy, channels: 1 })
+            smoother.interpolate(
+                f,
+                &InterpolateOptions { constraints, energy: *energy, channels: 1, ..InterpolateOptions::default() },
+            )
         }
         Call::LeastSquares(epsilon, set, weights) => {
             let constraints = named(set, Unconstrained::Keep);
-            let options = LeastSquaresOptions { constraints, epsilon: *epsilon, weights: Some(weights), channels: 1 };
+            let options = LeastSquaresOptions {
+                constraints,
+                epsilon: *epsilon,
+                weights: Some(weights),
+                channels: 1,
+                ..LeastSquaresOptions::default()
+            };
             smoother.least_squares(f, &options)
         }
     }
@@ -117,7 +126,7 @@ fn calls(reference: &Reference, operator: Operator) -> Vec<(String, Call)> {
     };
     for (metric, mass_scale) in metrics {
         for epsilon in [1e-3, 0.05, 50.0] {
-            let options = TikhonovOptions { epsilon, metric, mass_scale, channels: 1 };
+            let options = TikhonovOptions { epsilon, metric, mass_scale, channels: 1, ..TikhonovOptions::default() };
             all.push((format!("tikhonov {metric:?}"), Call::Tikhonov(options)));
         }
     }
@@ -242,7 +251,8 @@ fn all_channels_have_the_same_factor() {
     let mut smoother = Smoother::new(&mesh, options).unwrap();
     let f = noise(9 * n, 1);
     let constraints = named(&[0, 9, 40], Unconstrained::Error);
-    let together = InterpolateOptions { constraints, energy: Energy::Biharmonic, channels: 9 };
+    let together =
+        InterpolateOptions { constraints, energy: Energy::Biharmonic, channels: 9, ..InterpolateOptions::default() };
     let reports = smoother.interpolate(&f, &together).unwrap().reports;
     let alone = smoother.interpolate(&f[..n], &InterpolateOptions { channels: 1, ..together }).unwrap().reports;
     assert!(alone[0].perturbation_factor.is_some());

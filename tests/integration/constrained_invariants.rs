@@ -18,12 +18,19 @@ use crate::support::{every_kind, link_components, links, noise, random_complex, 
 const ENERGIES: [Energy; 2] = [Energy::Harmonic, Energy::Biharmonic];
 
 fn interpolate(smoother: &mut Smoother, f: &[f64], constraints: Constraints<'_>, energy: Energy) -> Smoothed {
-    smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels: 1 }).unwrap()
+    smoother
+        .interpolate(f, &InterpolateOptions { constraints, energy, channels: 1, ..InterpolateOptions::default() })
+        .unwrap()
 }
 
 fn fit(smoother: &mut Smoother, f: &[f64], set: &[u32], weights: Option<&[f64]>, epsilon: f64) -> Smoothed {
     let constraints = named(set, Unconstrained::Keep);
-    smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon, weights, channels: 1 }).unwrap()
+    smoother
+        .least_squares(
+            f,
+            &LeastSquaresOptions { constraints, epsilon, weights, channels: 1, ..LeastSquaresOptions::default() },
+        )
+        .unwrap()
 }
 
 /// Type and multiplicity of every critical point by the components of lower and upper links.
@@ -77,9 +84,10 @@ fn critical_points_with_stars_keep_their_types() {
                         let constraints = Constraints { features, stars, unconstrained: Unconstrained::Keep };
                         let found = interpolate(&mut smoother, &f, constraints, energy);
                         let report = &found.reports[0];
-                        let set = constrained_vertices(&mesh, &f, 1, &constraints).unwrap();
+                        let set =
+                            constrained_vertices(&mesh, &f, 1, &constraints, &morse_smooth::Watch::none()).unwrap();
                         let plain = Constraints { stars: false, ..constraints };
-                        let chosen = constrained_vertices(&mesh, &f, 1, &plain).unwrap();
+                        let chosen = constrained_vertices(&mesh, &f, 1, &plain, &morse_smooth::Watch::none()).unwrap();
                         for &v in &set {
                             assert_eq!(found.values[v as usize].to_bits(), f[v as usize].to_bits(), "{name} {v}");
                         }
@@ -279,8 +287,13 @@ fn least_squares_lie_between_their_limits() {
             if setting.1 == Operator::Paper {
                 // All vertices alike: eq. (3).
                 for epsilon in [1e-3, 1.0, 1e3] {
-                    let at =
-                        TikhonovOptions { epsilon, metric: Metric::Identity, mass_scale: MassScale::Raw, channels: 1 };
+                    let at = TikhonovOptions {
+                        epsilon,
+                        metric: Metric::Identity,
+                        mass_scale: MassScale::Raw,
+                        channels: 1,
+                        ..TikhonovOptions::default()
+                    };
                     let expected = smoother.tikhonov(&f, &at).unwrap();
                     let found = fit(&mut smoother, &f, &all, None, epsilon);
                     let wrong = error(&f, &found.values, &expected.values);
@@ -353,7 +366,7 @@ fn reports_of_constrained_smoothings() {
                 assert_eq!((report.before, report.after), (counts(&f), counts(&found.values)));
                 let (method, equation) =
                     if epsilon.is_some() { ("leastSquares", "(7)") } else { ("interpolate", "(6)") };
-                assert_eq!((report.method, report.equation, report.epsilon), (method, equation, epsilon));
+                assert_eq!((report.method.name(), report.equation.name(), report.epsilon), (method, equation, epsilon));
                 assert!(report.solver.relative_residual < 1e-10 && report.perturbation_factor.is_none());
                 check_kept(&mesh, &f, &found.values, &set, &set, report);
             }

@@ -31,7 +31,13 @@ fn run(
     match method {
         Some(energy) => smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels }),
         None => {
-            let options = LeastSquaresOptions { constraints, epsilon: 0.3, weights: None, channels };
+            let options = LeastSquaresOptions {
+                constraints,
+                epsilon: 0.3,
+                weights: None,
+                channels,
+                ..LeastSquaresOptions::default()
+            };
             smoother.least_squares(f, &options)
         }
     }
@@ -55,7 +61,7 @@ fn an_empty_set() {
                 assert_eq!(kept.values, f);
                 let report = &kept.reports[0];
                 assert_eq!((report.before, report.l_infinity, report.l2), (report.after, 0.0, 0.0));
-                assert_eq!((report.solver.route, report.solver.unknowns), ("none", 0));
+                assert_eq!((report.solver.route.name(), report.solver.unknowns), ("none", 0));
                 let mean = run(&mut smoother, &f, method, named(&[], Unconstrained::Mean), 1).unwrap();
                 assert!(error(&f, &mean.values, &means(&reference, &f, &[])) < 1e-14);
             }
@@ -158,7 +164,7 @@ fn all_vertices_and_all_but_one() {
             let found = run(&mut smoother, &f, Some(energy), named(&all, Unconstrained::Error), 1).unwrap();
             assert_eq!(found.values, f);
             let report = &found.reports[0];
-            assert_eq!((report.constraint_count, report.solver.route), (n as usize, "none"));
+            assert_eq!((report.constraint_count, report.solver.route.name()), (n as usize, "none"));
             let critical = (report.before.minima, report.before.maxima);
             assert_eq!(report.preserved, report.constrained_critical_points);
             assert_eq!(
@@ -225,7 +231,10 @@ fn several_channels_have_the_constraints_of_all() {
                 union.extend(if stars { with_stars(mesh.connectivity(), &chosen) } else { chosen });
             }
             let union: Vec<u32> = union.into_iter().collect();
-            assert_eq!(constrained_vertices(&mesh, &interleaved, 6, &constraints).unwrap(), union);
+            assert_eq!(
+                constrained_vertices(&mesh, &interleaved, 6, &constraints, &morse_smooth::Watch::none()).unwrap(),
+                union
+            );
             for method in METHODS {
                 let mut smoother = smoother(&mesh, DEFAULT, SolverChoice::Auto);
                 let found = run(&mut smoother, &interleaved, method, constraints, 6).unwrap();
@@ -250,7 +259,13 @@ fn fit(
     constraints: Constraints<'_>,
     weights: &[f64],
 ) -> morse_smooth::Result<Smoothed> {
-    let options = LeastSquaresOptions { constraints, epsilon: 0.7, weights: Some(weights), channels: 1 };
+    let options = LeastSquaresOptions {
+        constraints,
+        epsilon: 0.7,
+        weights: Some(weights),
+        channels: 1,
+        ..LeastSquaresOptions::default()
+    };
     smoother.least_squares(f, &options)
 }
 
@@ -276,14 +291,14 @@ fn weights_belong_to_vertices_as_they_are_listed() {
     assert_eq!(isolated.values, plain.values);
     // By a rule, or with stars: one for each constrained vertex, ascending.
     let stars = Constraints { stars: true, ..keep(&[70, 8]) };
-    let vertices = constrained_vertices(&mesh, &f, 1, &stars).unwrap();
+    let vertices = constrained_vertices(&mesh, &f, 1, &stars, &morse_smooth::Watch::none()).unwrap();
     let weights: Vec<f64> = (1..=vertices.len()).map(|i| i as f64).collect();
     let mut pull = vec![0.0; f.len()];
     vertices.iter().zip(&weights).for_each(|(&v, w)| pull[v as usize] = *w);
     let found = fit(&mut smoother, &f, stars, &weights).unwrap();
     assert!(error(&f, &found.values, &reference.least_squares(&f, &pull, 0.7)) < 1e-12);
     let rule = Constraints { features: Features::KMeans { clusters: 4, seed: 1 }, ..keep(&[]) };
-    let vertices = constrained_vertices(&mesh, &f, 1, &rule).unwrap();
+    let vertices = constrained_vertices(&mesh, &f, 1, &rule, &morse_smooth::Watch::none()).unwrap();
     let weights: Vec<f64> = (1..=vertices.len()).map(|i| i as f64).collect();
     let by_rule = fit(&mut smoother, &f, rule, &weights).unwrap();
     assert_eq!(by_rule.values, fit(&mut smoother, &f, keep(&vertices), &weights).unwrap().values);
@@ -309,7 +324,13 @@ fn bad_weights_and_options_are_refused() {
         assert_eq!(refused, Error::from(SmoothError::LengthMismatch { expected: 3, actual: weights.len() }));
     }
     for epsilon in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let options = LeastSquaresOptions { constraints: keep, epsilon, weights: None, channels: 1 };
+        let options = LeastSquaresOptions {
+            constraints: keep,
+            epsilon,
+            weights: None,
+            channels: 1,
+            ..LeastSquaresOptions::default()
+        };
         assert_eq!(smoother.least_squares(&f, &options).unwrap_err().code(), "InvalidOption");
     }
     for method in METHODS {
@@ -341,7 +362,13 @@ fn extreme_weights_give_an_answer_or_an_error() {
                 for epsilon in [1e-308, 1e-150, 1.0, 1e150, 1e308] {
                     let constraints = named(&[7, 3, 20], Unconstrained::Error);
                     let weights = [scale, 1.0, scale];
-                    let options = LeastSquaresOptions { constraints, epsilon, weights: Some(&weights), channels: 1 };
+                    let options = LeastSquaresOptions {
+                        constraints,
+                        epsilon,
+                        weights: Some(&weights),
+                        channels: 1,
+                        ..LeastSquaresOptions::default()
+                    };
                     if let Ok(found) = smoother.least_squares(&f, &options) {
                         let worst = found.values.iter().fold(0.0_f64, |m, x| if x.abs() < m { m } else { x.abs() });
                         assert!(worst < 100.0, "{setting:?} {solver:?} {scale:e} {epsilon:e}: {worst:e}");

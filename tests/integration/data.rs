@@ -205,14 +205,37 @@ fn constraints(options: DeltaOptions) -> Constraints<'static> {
 
 fn smoothed(smoother: &mut Smoother, f: &[f64], method: &Method) -> Result<Smoothed, Error> {
     match *method {
-        Method::Tikhonov(metric) => smoother
-            .tikhonov(f, &TikhonovOptions { epsilon: 0.05, metric, mass_scale: MassScale::MeanOne, channels: 1 }),
-        Method::Constrained(Some(energy), options) => {
-            smoother.interpolate(f, &InterpolateOptions { constraints: constraints(options), energy, channels: 1 })
-        }
+        Method::Tikhonov(metric) => smoother.tikhonov(
+            f,
+            &TikhonovOptions {
+                epsilon: 0.05,
+                metric,
+                mass_scale: MassScale::MeanOne,
+                channels: 1,
+                ..TikhonovOptions::default()
+            },
+        ),
+        Method::Constrained(Some(energy), options) => smoother.interpolate(
+            f,
+            &InterpolateOptions {
+                constraints: constraints(options),
+                energy,
+                channels: 1,
+                ..InterpolateOptions::default()
+            },
+        ),
         Method::Constrained(None, options) => {
             let constraints = constraints(options);
-            smoother.least_squares(f, &LeastSquaresOptions { constraints, epsilon: 0.05, weights: None, channels: 1 })
+            smoother.least_squares(
+                f,
+                &LeastSquaresOptions {
+                    constraints,
+                    epsilon: 0.05,
+                    weights: None,
+                    channels: 1,
+                    ..LeastSquaresOptions::default()
+                },
+            )
         }
     }
 }
@@ -274,7 +297,13 @@ fn check_smoothing(
         let key = if options.delta == 0.0 { "all critical points" } else { "delta=0.02 skip" };
         let sizes = &field["constraints"][key];
         check.equal(&format!("{context} constraints"), &Some(report.constraint_count as u64), &sizes[1].as_u64());
-        let all = constrained_vertices(smoother.mesh(), f, 1, &Constraints { stars: false, ..constraints(options) });
+        let all = constrained_vertices(
+            smoother.mesh(),
+            f,
+            1,
+            &Constraints { stars: false, ..constraints(options) },
+            &morse_smooth::Watch::none(),
+        );
         let all = all.expect("a field").len() as u64;
         check.equal(&format!("{context} feature points"), &Some(all), &sizes[0].as_u64());
         if energy.is_some() {

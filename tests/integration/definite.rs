@@ -163,7 +163,9 @@ fn accepted_pivot<K: Kind>(analysis: &CholeskyAnalysis, matrix: &CscMatrix<f64>)
 fn accepted_singular_matrices() -> (usize, Vec<(String, f64, usize)>) {
     let (mut all, mut accepted) = (0, Vec::new());
     for (name, mesh) in closed_and_open_surfaces() {
-        for (weights, laplacian) in [("uniform", uniform_laplacian(&mesh).unwrap()), ("cotangent", cotan_laplacian(&mesh).unwrap())] {
+        for (weights, laplacian) in
+            [("uniform", uniform_laplacian(&mesh).unwrap()), ("cotangent", cotan_laplacian(&mesh).unwrap())]
+        {
             let laplacian = without_empty_rows(&laplacian);
             for (power, matrix) in [("L", laplacian.clone()), ("LᵀL", gram(&laplacian, &Watch::none()).unwrap())] {
                 let analysis = analysis(&matrix);

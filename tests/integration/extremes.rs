@@ -52,7 +52,8 @@ fn any_epsilon() {
                     ] {
                         let epsilon: f64 = format!("1e{exponent}").parse().unwrap();
                         let context = format!("{weights:?} {solver:?} {metric:?} ε = {epsilon:e}");
-                        let options = TikhonovOptions { epsilon, metric, mass_scale, channels: 1 };
+                        let options =
+                            TikhonovOptions { epsilon, metric, mass_scale, channels: 1, ..TikhonovOptions::default() };
                         match smoother.tikhonov(&f, &options) {
                             Ok(found) => {
                                 let expected = solution(&laplacian, &mass, epsilon, &f);
@@ -86,7 +87,8 @@ fn any_scale_of_the_values() {
     for solver in SOLVERS {
         let mut smoother = Smoother::new(&mesh, SmootherOptions { solver, ..SmootherOptions::default() }).unwrap();
         for (metric, mass_scale) in METRICS {
-            let options = TikhonovOptions { epsilon: 0.05, metric, mass_scale, channels: 1 };
+            let options =
+                TikhonovOptions { epsilon: 0.05, metric, mass_scale, channels: 1, ..TikhonovOptions::default() };
             let plain = smoother.tikhonov(&f, &options).unwrap();
             for scale in [1e-320, 1e-310, 1e-300, 1e-160, 1e160, 1e300, 8e307] {
                 let scaled: Vec<f64> = f.iter().map(|x| x * scale).collect();
@@ -126,7 +128,13 @@ fn any_unit_of_the_mesh() {
                 let mut scaled = Smoother::new(&mesh, options).unwrap();
                 for (metric, mass_scale) in METRICS {
                     let context = format!("{unit:e} {weights:?} {solver:?} {metric:?} {mass_scale:?}");
-                    let options = TikhonovOptions { epsilon: 0.05, metric, mass_scale, channels: 1 };
+                    let options = TikhonovOptions {
+                        epsilon: 0.05,
+                        metric,
+                        mass_scale,
+                        channels: 1,
+                        ..TikhonovOptions::default()
+                    };
                     // A raw mass has the square of the unit, and ε undoes it.
                     let factor = if mass_scale == MassScale::Raw { unit * unit } else { 1.0 };
                     let expected = plain.tikhonov(&f, &options).unwrap().values;

@@ -38,7 +38,7 @@ fn solutions_agree_with_dense_algebra_on_every_kind_of_mesh() {
             let wrong = error(&f, &found.values, &expected);
             assert!(wrong < 1e-11, "{name} ε = {epsilon:e}: {wrong:e}");
             let report = &found.reports[0];
-            assert_eq!((report.equation, report.solver.route), ("fem", "complexCholesky"), "{name}");
+            assert_eq!((report.equation.name(), report.solver.route.name()), ("fem", "complexCholesky"), "{name}");
             // The residual is a difference of products with L M⁻¹ L, which are rounded, beside a small εMf.
             let residual = report.solver.relative_residual;
             let least = areas.iter().copied().filter(|&a| a > 0.0).fold(f64::INFINITY, f64::min);

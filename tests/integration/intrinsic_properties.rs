@@ -144,7 +144,12 @@ fn triangles_without_area_take_part() {
     // All in one place: nothing to measure, so all sides are alike.
     for at in [0.0, 3.0] {
         let point = mesh(&[[at; 3]; 4], &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);
-        assert_close("point", &intrinsic(&point), &dense(&cotan_laplacian(&shapes::tetrahedron().unwrap()).unwrap()), 1e-14);
+        assert_close(
+            "point",
+            &intrinsic(&point),
+            &dense(&cotan_laplacian(&shapes::tetrahedron().unwrap()).unwrap()),
+            1e-14,
+        );
     }
 
     // Two vertices of a sphere in one place, and a vertex upon an edge.

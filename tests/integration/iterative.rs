@@ -59,7 +59,7 @@ fn solve(
 fn preconditioners(matrix: &CscMatrix<f64>) -> Vec<(&'static str, Box<dyn Preconditioner>)> {
     vec![
         ("Jacobi", Box::new(Jacobi::new(&diagonal(matrix)).unwrap())),
-        ("incomplete Cholesky", Box::new(IncompleteCholesky::new(matrix).unwrap())),
+        ("incomplete Cholesky", Box::new(IncompleteCholesky::new(matrix, &Watch::none()).unwrap())),
         ("multigrid", Box::new(Multigrid::new(matrix, &Watch::none()).unwrap())),
     ]
 }
@@ -278,7 +278,7 @@ fn incomplete_cholesky_is_complete_without_fill() {
     let tree: Vec<(usize, usize, f64)> = (0..98).map(|i| (i, 50 + i / 2, -1.0)).filter(|&(i, j, _)| i < j).collect();
     for pairs in [path, arrow, tree] {
         let matrix = dominant(100, &pairs);
-        let incomplete = IncompleteCholesky::new(&matrix).unwrap();
+        let incomplete = IncompleteCholesky::new(&matrix, &Watch::none()).unwrap();
         assert_eq!(incomplete.shift(), 0.0);
         let b = noise(100, 5);
         let expected = dense(&matrix).cholesky().unwrap().solve(&DVector::from_vec(b.clone()));
@@ -287,7 +287,7 @@ fn incomplete_cholesky_is_complete_without_fill() {
     }
     // (G Gᵀ)_ij = a_ij on the pattern: M e_j differs from A e_j only where A has no entry.
     let matrix = random_spd(8, 40, 90);
-    let incomplete = IncompleteCholesky::new(&matrix).unwrap();
+    let incomplete = IncompleteCholesky::new(&matrix, &Watch::none()).unwrap();
     let unit = |j: usize| (0..40).map(|i| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
     let columns: Vec<DVector<f64>> =
         (0..40).map(|j| DVector::from_vec(incomplete.apply(&unit(j), &Watch::none()).unwrap())).collect();
@@ -303,7 +303,7 @@ fn incomplete_cholesky_shifts_where_it_breaks_down() {
     let kershaw =
         DMatrix::from_row_slice(4, 4, &[3., -2., 0., 2., -2., 3., -2., 0., 0., -2., 3., -2., 2., 0., -2., 3.]);
     let matrix = CscMatrix::from(&kershaw);
-    let incomplete = IncompleteCholesky::new(&matrix).unwrap();
+    let incomplete = IncompleteCholesky::new(&matrix, &Watch::none()).unwrap();
     assert!(incomplete.shift() > 0.0);
     check(&matrix, 1e-10, "Kershaw");
 }
@@ -389,7 +389,7 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
     let laplacian = cotan_laplacian(&shapes::torus(30, 20, 0.3).unwrap()).unwrap();
     let n = laplacian.nrows();
     let mut all = vec![("Jacobi", Box::new(Jacobi::new(&diagonal(&laplacian)).unwrap()) as Box<dyn Preconditioner>)];
-    if let Ok(incomplete) = IncompleteCholesky::new(&laplacian) {
+    if let Ok(incomplete) = IncompleteCholesky::new(&laplacian, &Watch::none()) {
         all.push(("incomplete Cholesky", Box::new(incomplete)));
     }
     if let Ok(multigrid) = Multigrid::new(&laplacian, &Watch::none()) {
@@ -405,7 +405,10 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
     assert!(diagonal(&shifted).iter().all(|&d| d > 0.0));
     for (which, made) in [
         ("Jacobi", Jacobi::new(&diagonal(&shifted)).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
-        ("incomplete Cholesky", IncompleteCholesky::new(&shifted).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
+        (
+            "incomplete Cholesky",
+            IncompleteCholesky::new(&shifted, &Watch::none()).map(|p| Box::new(p) as Box<dyn Preconditioner>),
+        ),
         ("multigrid", Multigrid::new(&shifted, &Watch::none()).map(|p| Box::new(p) as Box<dyn Preconditioner>)),
     ] {
         let error = match made {
@@ -425,7 +428,7 @@ fn semi_definite_and_indefinite_matrices_end_in_an_error() {
         shifted.values_mut()[middle] = value;
         let named = Some(SolveError::NotPositiveDefinite { column: 17 });
         assert_eq!(Jacobi::new(&diagonal(&shifted)).err(), named);
-        assert_eq!(IncompleteCholesky::new(&shifted).err(), named);
+        assert_eq!(IncompleteCholesky::new(&shifted, &Watch::none()).err(), named);
         assert_eq!(Multigrid::new(&shifted, &Watch::none()).err(), named);
     }
 }
@@ -486,7 +489,8 @@ fn conjugate_gradients_refuse_by_name() {
 #[test]
 fn preconditioners_refuse_by_name() {
     let codes = |matrix: &CscMatrix<f64>| {
-        let codes = [IncompleteCholesky::new(matrix).err(), Multigrid::new(matrix, &Watch::none()).err()];
+        let codes =
+            [IncompleteCholesky::new(matrix, &Watch::none()).err(), Multigrid::new(matrix, &Watch::none()).err()];
         assert_eq!(codes[0], codes[1]);
         codes[0].clone()
     };

@@ -116,7 +116,10 @@ fn check(name: &str, mesh: &TriMesh, values: &[f64]) {
         assert_eq!(pair.persistence, pair.death - pair.birth, "{name}");
     }
     assert!(diagram.pairs.is_sorted_by(|a, b| a.persistence >= b.persistence), "{name}: descending");
-    if mesh.topology().unwrap().closed && mesh.topology().unwrap().non_manifold_vertices == 0 && mesh.topology().unwrap().non_manifold_edges == 0 {
+    if mesh.topology().unwrap().closed
+        && mesh.topology().unwrap().non_manifold_vertices == 0
+        && mesh.topology().unwrap().non_manifold_edges == 0
+    {
         // On a closed surface the pairs of maxima are those of loops that come to bound.
         let mirrored = sorted(down.pairs[0].iter().map(|&(extremum, saddle)| (saddle, extremum)).collect());
         assert_eq!(mirrored, sorted(up.pairs[1].clone()), "{name}: duality");

@@ -1,8 +1,11 @@
 //! One smoother for many calls and many channels.
 
+use core::ops::ControlFlow;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::LaplacianWeights;
-use morse_smooth::smooth::{Metric, Phase, Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions};
+
+use morse_smooth::smooth::{Method, Metric, Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions};
+use morse_smooth::{Phase, Progress, Watch};
 
 #[test]
 fn a_fallback_is_remembered() {
@@ -20,9 +23,12 @@ fn a_fallback_is_remembered() {
         let mut random = Random::new(seed);
         let field: Vec<f64> = (0..mesh.vertex_count()).map(|_| random.signed()).collect();
         let mut count = 0;
-        let mut tell = |phase: Phase, _: f64| count += usize::from(phase == Phase::Factorization);
-        let found = smoother.tikhonov_with_progress(&field, &at, &mut tell).unwrap();
-        assert_eq!(found.reports[0].solver.precision, "doubleAfterSingle");
+        let mut tell = |progress: Progress| {
+            count += usize::from(progress.phase == Phase::Factorization);
+            ControlFlow::Continue(())
+        };
+        let found = smoother.apply(&field, &Method::Tikhonov(at), &Watch::new(&mut tell)).unwrap();
+        assert_eq!(found.reports[0].solver.precision.name(), "doubleAfterSingle");
         factorizations.push(count);
     }
     assert_eq!(factorizations, [2, 0, 0]);
@@ -72,6 +78,10 @@ fn many_channels_equal_each_alone() {
     let mut bad = values;
     bad[7 * channels + 10] = f64::NAN;
     let mut phases = 0;
-    assert!(smoother.tikhonov_with_progress(&bad, &at, &mut |_, _| phases += 1).is_err());
+    let mut tell = |_: Progress| {
+        phases += 1;
+        ControlFlow::Continue(())
+    };
+    assert!(smoother.apply(&bad, &Method::Tikhonov(at), &Watch::new(&mut tell)).is_err());
     assert_eq!(phases, 0);
 }

@@ -1,10 +1,10 @@
 // The entry `morse-smooth/snapshot` for browsers.
-import { module } from '../api/snapshot/module.js';
+import { pictures } from '../api/snapshot/module.js';
 import { loaderOf } from '../runtime/load.js';
 
 export { MorseSmoothError, Scene, sheet, snapshot } from '../api/snapshot/index.js';
 
-const initFrom = loaderOf(module);
+const initFrom = loaderOf(pictures);
 
 /** Loads the wasm file that lies beside this one: bundlers find it by this very expression. */
 export default function init(options) {

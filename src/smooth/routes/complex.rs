@@ -11,50 +11,44 @@ use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
 use super::{Answer, Task};
-use crate::Watch;
 use crate::error::SolveError;
-use crate::smooth::{Phase, Precision, Progress};
+use crate::smooth::Precision;
+use crate::smooth::names::Route;
+use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
+use crate::support::watch::{Phase, Watch};
 
-/// The analysis of L, and the last factor of L + iD.
-#[derive(Debug)]
-pub(super) struct ComplexRoute {
-    factors: Factors<Complex<f64>, Complex<f32>>,
-}
+/// The analysis of L, and the last factor of L + iD. A family of all ε will take one factor after the other from the same analysis,
+/// each with a key of its own.
+pub(super) type ComplexFactors = Factors<Complex<f64>, Complex<f32>>;
 
 type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 
-impl ComplexRoute {
-    pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
-        let pattern = task.problem.matrix.pattern().clone();
-        let analysis = CholeskyAnalysis::new(pattern, &Watch::none())?;
-        Ok(Self { factors: Factors::new(analysis) })
-    }
+/// Analyses the pattern of L.
+pub(super) fn analyse(task: &Task<'_>, watch: &Watch<'_>) -> Result<ComplexFactors, SolveError> {
+    Ok(Factors::new(CholeskyAnalysis::new(task.problem.matrix.pattern().clone(), watch)?))
+}
 
-    pub(super) fn drop_factor(&mut self) {
-        self.factors.drop_factor();
+/// Solves with the factor itself where the system is a product, else by conjugate gradients.
+pub(super) fn solve(
+    factors: &mut ComplexFactors,
+    task: &Task<'_>,
+    precision: Precision,
+    stages: &mut Stages<'_, '_>,
+) -> Result<Answer, SolveError> {
+    let shift = task.shift();
+    let values = |_: &CholeskyAnalysis| shifted(task.problem.matrix, &shift);
+    let factor = factors.take(task.key, precision, &values, stages)?;
+    stages.begin(Phase::Solve, 0)?;
+    let watch = stages.watch;
+    if task.problem.is_product() {
+        let iterates = product(task, &factor, &shift, task.tolerance(precision), watch)?;
+        return Ok(factors.answer(task.key, factor, iterates, Route::ComplexCholesky, None));
     }
-
-    /// Solves with the factor itself where the system splits, else by conjugate gradients.
-    pub(super) fn solve(
-        &mut self,
-        task: &Task<'_>,
-        precision: Precision,
-        progress: Progress<'_>,
-    ) -> Result<Answer, SolveError> {
-        let shift = task.shift();
-        let values = |_: &CholeskyAnalysis| shifted(task.problem.matrix, &shift);
-        let factor = self.factors.take(task.key, precision, &values, progress)?;
-        progress(Phase::Solve, 0.8);
-        if task.problem.splits {
-            let iterates = split(task, &factor, &shift, task.tolerance(precision))?;
-            return Ok(self.factors.answer(task.key, factor, iterates, "complexCholesky", None));
-        }
-        let product = Product { factor: &factor, size: shift.len() };
-        let iterates = iterative::refined(task, &product)?;
-        let eigenvalue = iterative::eigenvalue(task, &product);
-        Ok(self.factors.answer(task.key, factor, iterates, "cgComplexCholesky", eigenvalue))
-    }
+    let pair = Pair { factor: &factor, size: shift.len() };
+    let iterates = iterative::refined(task, &pair, watch)?;
+    let eigenvalue = iterative::eigenvalue(task, &pair, watch)?;
+    Ok(factors.answer(task.key, factor, iterates, Route::CgComplexCholesky, eigenvalue))
 }
 
 /// The values of L + iD.
@@ -64,11 +58,17 @@ fn shifted(laplacian: &CscMatrix<f64>, shift: &[f64]) -> Vec<Complex<f64>> {
 }
 
 /// x = −Im z with (L + iD) z = D f, refined in complex numbers; z is kept as its real parts, then its imaginary parts.
-fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64) -> Result<Vec<Iterate>, SolveError> {
+fn product(
+    task: &Task<'_>,
+    factor: &ComplexFactor,
+    shift: &[f64],
+    tolerance: f64,
+    watch: &Watch<'_>,
+) -> Result<Vec<Iterate>, SolveError> {
     let (laplacian, n) = (task.problem.matrix, shift.len());
     let residual = |c: usize, z: &[f64]| {
         let (re, im) = z.split_at(n);
-        let f: &[f64] = &task.loads[c].field;
+        let f: &[f64] = &task.right_hand_sides[c].field;
         let (real, imaginary) = (transposed_product(laplacian, re), transposed_product(laplacian, im));
         let mut rest = Vec::with_capacity(2 * n);
         for i in 0..n {
@@ -79,12 +79,13 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
         }
         rest
     };
-    let mut iterates = refine(Refinement {
-        count: task.loads.len(),
+    let refinement = Refinement {
+        count: task.right_hand_sides.len(),
         length: 2 * n,
         tolerance,
         // L is positive semi-definite, so |⟨z, (L + iD) z⟩| ≥ min D · ‖z‖².
         inverse_norm: shift.iter().copied().reduce(f64::min).map(f64::recip),
+        ticks: task.problem.ticks(),
         residual: &residual,
         solve: &mut |residuals, _| {
             let mut b = Vec::with_capacity(residuals.len() / 2);
@@ -93,7 +94,7 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
                     b.push(Complex::new(r[i], r[n + i]));
                 }
             }
-            let solved = factor.solve(&b)?;
+            let solved = factor.solve(&b, watch)?;
             let mut planar = vec![0.0; residuals.len()];
             for (c, z) in solved.chunks_exact(n).enumerate() {
                 for i in 0..n {
@@ -103,7 +104,8 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
             }
             Ok(planar)
         },
-    })?;
+    };
+    let mut iterates = refine(refinement, watch)?;
     for iterate in &mut iterates {
         iterate.x = iterate.x[n..].iter().map(|im| -im).collect();
     }
@@ -111,20 +113,20 @@ fn split(task: &Task<'_>, factor: &ComplexFactor, shift: &[f64], tolerance: f64)
 }
 
 /// The real part of ((L + iD)(L − iD))⁻¹, which is symmetric positive definite as the product is Hermitian so.
-struct Product<'a> {
+struct Pair<'a> {
     factor: &'a ComplexFactor,
     size: usize,
 }
 
-impl Preconditioner for Product<'_> {
+impl Preconditioner for Pair<'_> {
     fn size(&self) -> usize {
         self.size
     }
 
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         let r: Vec<Complex<f64>> = r.iter().map(|&r| Complex::new(r, 0.0)).collect();
         // (L − iD)⁻¹ y is the conjugate of (L + iD)⁻¹ applied to the conjugate of y.
-        let conjugate: Vec<Complex<f64>> = self.factor.solve(&r)?.iter().map(|y| y.conj()).collect();
-        Ok(self.factor.solve(&conjugate)?.iter().map(|z| z.re).collect())
+        let conjugate: Vec<Complex<f64>> = self.factor.solve(&r, watch)?.iter().map(|y| y.conj()).collect();
+        Ok(self.factor.solve(&conjugate, watch)?.iter().map(|z| z.re).collect())
     }
 }

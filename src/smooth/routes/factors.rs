@@ -1,11 +1,26 @@
 //! Factors that are kept from one call to the next.
 
+use std::sync::Arc;
+
+use super::Answer;
 use super::refine::Iterate;
-use super::{Answer, Key};
-use crate::Watch;
 use crate::error::SolveError;
-use crate::smooth::{Phase, Precision, Progress};
+use crate::smooth::Precision;
+use crate::smooth::data_term::DataTerm;
+use crate::smooth::names::{Route, UsedPrecision};
+use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
+use crate::support::watch::{Phase, Watch};
+
+/// What a factor belongs to, within one system. A method that factors for many ε in turn, or for steps of an interior-point
+/// iteration, says by such a value which of them it is.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::smooth) enum FactorKey {
+    /// The system has no data term, and so one factor.
+    Plain,
+    /// The system with εB.
+    Regularized { epsilon: f64, term: Arc<DataTerm> },
+}
 
 /// A factor in double or single precision.
 #[derive(Debug)]
@@ -15,10 +30,10 @@ pub(super) enum Factor<D: Scalar, S: Scalar<Wide = D::Wide>> {
 }
 
 impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
-    pub(super) fn solve(&self, right_hand_sides: &[D::Wide]) -> Result<Vec<D::Wide>, SolveError> {
+    pub(super) fn solve(&self, right_hand_sides: &[D::Wide], watch: &Watch<'_>) -> Result<Vec<D::Wide>, SolveError> {
         match self {
-            Self::Double(factor) => factor.solve(right_hand_sides, &Watch::none()),
-            Self::Single(factor) => factor.solve(right_hand_sides, &Watch::none()),
+            Self::Double(factor) => factor.solve(right_hand_sides, watch),
+            Self::Single(factor) => factor.solve(right_hand_sides, watch),
         }
     }
 
@@ -34,7 +49,7 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
 #[derive(Debug)]
 pub(super) struct Factors<D: Scalar, S: Scalar<Wide = D::Wide>> {
     analysis: CholeskyAnalysis,
-    last: Option<(Key, Factor<D, S>)>,
+    last: Option<(FactorKey, Factor<D, S>)>,
 }
 
 impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
@@ -46,32 +61,33 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
     /// if it has the same precision. [`Factors::answer`] puts it back.
     pub(super) fn take(
         &mut self,
-        key: Key,
+        key: &FactorKey,
         precision: Precision,
         values: &dyn Fn(&CholeskyAnalysis) -> Vec<D::Wide>,
-        progress: Progress<'_>,
+        stages: &mut Stages<'_, '_>,
     ) -> Result<Factor<D, S>, SolveError> {
         let last = match self.last.take() {
-            Some((known, factor)) if known == key && factor.precision() == precision => return Ok(factor),
+            Some((known, factor)) if known == *key && factor.precision() == precision => return Ok(factor),
             last => last,
         };
-        progress(Phase::Factorization, 0.2);
+        stages.begin(Phase::Factorization, 0)?;
+        let watch = stages.watch;
         let values = values(&self.analysis);
         Ok(match (last, precision) {
             (Some((_, Factor::Double(mut factor))), Precision::Double) => {
-                factor.refactor(&values, &Watch::none())?;
+                factor.refactor(&values, watch)?;
                 Factor::Double(factor)
             }
             (Some((_, Factor::Single(mut factor))), Precision::Single) => {
-                factor.refactor(&values, &Watch::none())?;
+                factor.refactor(&values, watch)?;
                 Factor::Single(factor)
             }
             (other, _) => {
                 // Its memory is needed for the new one.
                 drop(other);
                 match precision {
-                    Precision::Double => Factor::Double(self.analysis.factor(&values, &Watch::none())?),
-                    Precision::Single => Factor::Single(self.analysis.factor(&values, &Watch::none())?),
+                    Precision::Double => Factor::Double(self.analysis.factor(&values, watch)?),
+                    Precision::Single => Factor::Single(self.analysis.factor(&values, watch)?),
                 }
             }
         })
@@ -80,15 +96,23 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
     /// Keeps a factor that proved good, and says where the solutions come from.
     pub(super) fn answer(
         &mut self,
-        key: Key,
+        key: &FactorKey,
         factor: Factor<D, S>,
         iterates: Vec<Iterate>,
-        route: &'static str,
+        route: Route,
         smallest_eigenvalue: Option<f64>,
     ) -> Answer {
-        let precision = if factor.precision() == Precision::Single { "single" } else { "double" };
-        self.last = Some((key, factor));
+        let precision = match factor.precision() {
+            Precision::Single => UsedPrecision::Single,
+            Precision::Double => UsedPrecision::Double,
+        };
+        self.last = Some((key.clone(), factor));
         Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros, smallest_eigenvalue }
+    }
+
+    /// Whether the last factor has this key.
+    pub(super) fn has(&self, key: &FactorKey) -> bool {
+        self.last.as_ref().is_some_and(|(known, _)| known == key)
     }
 
     /// Gives the memory of the last factor back.

@@ -1,11 +1,13 @@
 //! The routes without a factor of the system: conjugate gradients with the matrix in factored form.
 
 use super::eigenvalue::smallest_eigenvalue;
+use super::problem::{Form, SymmetricPart};
 use super::refine::{Iterate, Refinement, refine};
-use super::{Answer, Inner, Mass, Order, Task};
-use crate::Watch;
-use crate::error::SolveError;
+use super::{Answer, Task};
+use crate::error::{Cancelled, SolveError};
+use crate::smooth::names::{Route, UsedPrecision};
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
+use crate::support::watch::Watch;
 
 /// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
 /// refinement can solve; refinement makes up the rest.
@@ -14,7 +16,7 @@ const CG_TOLERANCE: f64 = 1e-6;
 const ROUGH_RESIDUAL: f64 = 0.5;
 /// A good preconditioner takes ten to twenty iterations; past this many, rounding prevails.
 const MOST_PRECONDITIONED: usize = 200;
-/// Where not all unknowns are pulled, the preconditioner is a rough one, and takes more the larger the mesh is.
+/// Where some unknowns are beyond the data term, the preconditioner is a rough one, and takes more the larger the mesh is.
 const MOST_ROUGHLY_PRECONDITIONED: usize = 2000;
 /// The inner tolerance of a second attempt.
 const TIGHT: f64 = 1e-8;
@@ -22,91 +24,124 @@ const TIGHT: f64 = 1e-8;
 const TOLERANCE: f64 = 1e-16;
 
 /// Solves with the best preconditioner that needs little memory.
-pub(super) fn solve(task: &Task<'_>) -> Result<Answer, SolveError> {
-    if let Some(outcome) = by_multigrid(task) {
+pub(super) fn solve(task: &Task<'_>, watch: &Watch<'_>) -> Result<Answer, SolveError> {
+    if let Some(outcome) = by_multigrid(task, watch) {
         return outcome;
     }
     let jacobi = Jacobi::new(&task.problem.diagonal())?;
-    let iterates = refined_within(task, &jacobi, CgOptions::default().max_iterations)?;
-    Ok(answer(task, &jacobi, iterates, "cgJacobi"))
+    let iterates = refined_within(task, &jacobi, CgOptions::default().max_iterations, watch)?;
+    answer(task, &jacobi, iterates, Route::CgJacobi, watch)
 }
 
-fn answer(task: &Task<'_>, preconditioner: &dyn Preconditioner, iterates: Vec<Iterate>, route: &'static str) -> Answer {
-    let smallest_eigenvalue = eigenvalue(task, preconditioner);
-    Answer { iterates, route, precision: "double", factor_nonzeros: 0, smallest_eigenvalue }
+fn answer(
+    task: &Task<'_>,
+    preconditioner: &dyn Preconditioner,
+    iterates: Vec<Iterate>,
+    route: Route,
+    watch: &Watch<'_>,
+) -> Result<Answer, SolveError> {
+    let smallest_eigenvalue = eigenvalue(task, preconditioner, watch)?;
+    Ok(Answer { iterates, route, precision: UsedPrecision::Double, factor_nonzeros: 0, smallest_eigenvalue })
 }
 
-/// With multigrid for the matrix, or twice for its square root; nothing where there is no multigrid for it.
-fn by_multigrid(task: &Task<'_>) -> Option<Result<Answer, SolveError>> {
-    const ROUTE: &str = "cgMultigrid";
-    let inner = task.problem.inner?;
-    if task.problem.order == Order::First {
-        let multigrid = Multigrid::new(inner.matrix, &Watch::none()).ok()?;
-        return Some(refined(task, &multigrid).map(|iterates| answer(task, &multigrid, iterates, ROUTE)));
+/// Solves with multigrid for the matrix, or twice for its square root; nothing where there is no multigrid for it.
+fn by_multigrid(task: &Task<'_>, watch: &Watch<'_>) -> Option<Result<Answer, SolveError>> {
+    let part = task.problem.symmetric_part()?;
+    if matches!(task.problem.form, Form::Symmetric) {
+        let multigrid = match unless_cancelled(Multigrid::new(part.matrix, watch))? {
+            Ok(multigrid) => multigrid,
+            Err(Cancelled) => return Some(Err(Cancelled.into())),
+        };
+        let iterates = refined(task, &multigrid, watch);
+        return Some(iterates.and_then(|iterates| answer(task, &multigrid, iterates, Route::CgMultigrid, watch)));
     }
-    let mut squared = squared_sum(task, inner).ok()?;
-    let mut outcome = refined(task, &squared);
+    let mut squared = match unless_cancelled(squared_sum(task, part, watch))? {
+        Ok(squared) => squared,
+        Err(Cancelled) => return Some(Err(Cancelled.into())),
+    };
+    let mut outcome = refined(task, &squared, watch);
     if matches!(outcome, Err(SolveError::IndefinitePreconditioner { .. } | SolveError::NotConverged { .. })) {
         // Rows of needle triangles: a small residual of the inner systems is not yet a solution.
         squared.set_tolerance(TIGHT);
-        outcome = refined(task, &squared);
+        outcome = refined(task, &squared, watch);
     }
-    Some(outcome.map(|iterates| answer(task, &squared, iterates, ROUTE)))
+    Some(outcome.and_then(|iterates| answer(task, &squared, iterates, Route::CgMultigrid, watch)))
 }
 
-fn squared_sum(task: &Task<'_>, inner: Inner<'_>) -> Result<SquaredSum, SolveError> {
-    let squared = SquaredSum::new(inner.matrix, &task.shift(), SquaredSum::TOLERANCE, &Watch::none())?;
-    Ok(match inner.weights {
+/// What was made, or that it was stopped; nothing where it cannot be made.
+fn unless_cancelled<T>(made: Result<T, SolveError>) -> Option<Result<T, Cancelled>> {
+    match made {
+        Ok(made) => Some(Ok(made)),
+        Err(SolveError::Cancelled {}) => Some(Err(Cancelled)),
+        Err(_) => None,
+    }
+}
+
+fn squared_sum(task: &Task<'_>, part: SymmetricPart<'_>, watch: &Watch<'_>) -> Result<SquaredSum, SolveError> {
+    let squared = SquaredSum::new(part.matrix, &task.shift(), SquaredSum::TOLERANCE, watch)?;
+    Ok(match part.weights {
         Some(weights) => squared.between(&weights.iter().map(|w| w.recip()).collect::<Vec<f64>>()),
         None => squared,
     })
 }
 
 /// A lower bound of the smallest eigenvalue, if it is wanted and can be found.
-pub(super) fn eigenvalue(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Option<f64> {
-    if !task.manner.bounds {
-        return None;
+pub(super) fn eigenvalue(
+    task: &Task<'_>,
+    preconditioner: &dyn Preconditioner,
+    watch: &Watch<'_>,
+) -> Result<Option<f64>, Cancelled> {
+    if !task.settings.bounds {
+        return Ok(None);
     }
     let options = CgOptions { tolerance: CG_TOLERANCE, ..CgOptions::default() };
-    smallest_eigenvalue(&task.problem, &mut |b| {
+    let mut solve = |b: &[f64]| {
         let mut x = vec![0.0; b.len()];
-        match conjugate_gradient(&mut |x| task.problem.apply(x), preconditioner, b, &mut x, &options, &Watch::none()) {
+        match conjugate_gradient(&mut |x| task.problem.apply(x), preconditioner, b, &mut x, &options, watch) {
             // Rough solutions only take more steps.
             Ok(_) | Err(SolveError::NotConverged { .. }) => Ok(x),
             Err(error) => Err(error),
         }
-    })
+    };
+    smallest_eigenvalue(&task.problem, &mut solve, watch)
 }
 
 /// Conjugate gradients with a good preconditioner, refined.
-pub(super) fn refined(task: &Task<'_>, preconditioner: &dyn Preconditioner) -> Result<Vec<Iterate>, SolveError> {
-    let is_rough = match task.problem.pull.map(|pull| pull.mass) {
-        Some(Mass::Diagonal(masses)) => masses.contains(&0.0),
-        Some(_) => false,
-        None => task.problem.order == Order::Squared,
+pub(super) fn refined(
+    task: &Task<'_>,
+    preconditioner: &dyn Preconditioner,
+    watch: &Watch<'_>,
+) -> Result<Vec<Iterate>, SolveError> {
+    let is_rough = match task.problem.form {
+        Form::Symmetric => false,
+        Form::Normal { .. } => true,
+        Form::Regularized { data, .. } => data.mass.has_gaps(),
     };
-    refined_within(task, preconditioner, if is_rough { MOST_ROUGHLY_PRECONDITIONED } else { MOST_PRECONDITIONED })
+    let most = if is_rough { MOST_ROUGHLY_PRECONDITIONED } else { MOST_PRECONDITIONED };
+    refined_within(task, preconditioner, most, watch)
 }
 
 fn refined_within(
     task: &Task<'_>,
     preconditioner: &dyn Preconditioner,
     max_iterations: usize,
+    watch: &Watch<'_>,
 ) -> Result<Vec<Iterate>, SolveError> {
     let n = task.problem.unknowns();
     let options = CgOptions { tolerance: CG_TOLERANCE, max_iterations, ..CgOptions::default() };
     let mut apply = |x: &[f64]| task.problem.apply(x);
-    refine(Refinement {
-        count: task.loads.len(),
+    let refinement = Refinement {
+        count: task.right_hand_sides.len(),
         length: n,
         tolerance: TOLERANCE,
         inverse_norm: None,
-        residual: &|c, x| task.problem.residual(&task.loads[c], x),
+        ticks: task.problem.ticks(),
+        residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
         solve: &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));
             for ((b, x), iterations) in columns.zip(iterations) {
-                *iterations += match conjugate_gradient(&mut apply, preconditioner, b, x, &options, &Watch::none()) {
+                *iterations += match conjugate_gradient(&mut apply, preconditioner, b, x, &options, watch) {
                     Ok(info) => info.iterations,
                     // What rounding leaves in the residual of small ε is rough, and A⁻¹ hardly feels it: whether the
                     // solution is one is seen by its corrections.
@@ -120,5 +155,6 @@ fn refined_within(
             }
             Ok(solutions)
         },
-    })
+    };
+    refine(refinement, watch)
 }

@@ -16,10 +16,15 @@ mod problem;
 mod real;
 mod refine;
 
-use super::{Phase, Precision, Progress, SolverChoice};
+use super::names::{Route, UsedPrecision};
+use super::schedule::{Stages, Work};
+use super::{Precision, SolverChoice};
 use crate::error::SolveError;
-use complex::ComplexRoute;
-pub(super) use problem::{Inner, Load, Mass, Order, Problem, Pull, difference};
+use crate::smooth::data_term::Mass;
+use crate::support::watch::{Phase, Watch};
+use complex::ComplexFactors;
+pub(super) use factors::FactorKey;
+pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
 use real::RealRoute;
 use refine::Iterate;
 
@@ -30,16 +35,11 @@ const LARGE: usize = 400_000;
 const DOUBLE: f64 = 1e-16;
 const SINGLE: f64 = 1e-13;
 
-/// What a factor belongs to: ε, and which of the matrices B.
-pub(super) type Key = (f64, u32);
-
 /// How to solve, whatever the system.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Manner {
+pub(super) struct SolverSettings {
     pub(super) choice: SolverChoice,
     pub(super) precision: Precision,
-    /// Whether L is symmetric.
-    pub(super) symmetric: bool,
     /// Whether the smallest eigenvalue is wanted, too.
     pub(super) bounds: bool,
 }
@@ -47,75 +47,85 @@ pub(super) struct Manner {
 /// One call.
 pub(super) struct Task<'a> {
     pub(super) problem: Problem<'a>,
-    pub(super) key: Key,
+    pub(super) key: &'a FactorKey,
     /// One per channel.
-    pub(super) loads: &'a [Load],
-    pub(super) manner: Manner,
+    pub(super) right_hand_sides: &'a [RightHandSide],
+    pub(super) settings: SolverSettings,
 }
 
 /// Solutions, one per channel, and where they come from.
 pub(super) struct Answer {
     pub(super) iterates: Vec<Iterate>,
-    pub(super) route: &'static str,
-    pub(super) precision: &'static str,
+    pub(super) route: Route,
+    pub(super) precision: UsedPrecision,
     pub(super) factor_nonzeros: u64,
     /// A lower bound of the smallest eigenvalue of the system's matrix, where it was asked for and could be found.
     pub(super) smallest_eigenvalue: Option<f64>,
 }
 
+/// A way to try: one that has a factor, or iterations without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Route {
-    ComplexCholesky,
-    Cholesky,
-    CgComplexCholesky,
-    Iterative,
+enum Way {
+    Complex,
+    Real,
+    ComplexIterations,
+    Iterations,
+}
+
+/// What solved a system.
+#[derive(Debug, Clone)]
+struct Solver {
+    key: FactorKey,
+    way: Way,
+    precision: UsedPrecision,
 }
 
 /// Analyses and factors, kept for the next call.
 #[derive(Debug, Default)]
 pub(super) struct Routes {
     real: Option<RealRoute>,
-    complex: Option<ComplexRoute>,
-    /// What solved the last system, and whether it did so after single precision had failed.
-    last: Option<(Key, Route, &'static str)>,
+    complex: Option<ComplexFactors>,
+    /// What solved the last system.
+    last: Option<Solver>,
+}
+
+/// The ways to try, the best one first.
+fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]) {
+    let large = problem.unknowns() >= LARGE;
+    // Where the product (A + iD) W (A − iD) is near the system, if not the system itself.
+    let is_near_product = problem.data().is_some() && problem.symmetric_part().is_some();
+    match (settings.choice, problem.is_product()) {
+        (SolverChoice::ConjugateGradient, _) => (Way::Iterations, &[]),
+        (SolverChoice::Cholesky, true) => (Way::Complex, &[]),
+        (SolverChoice::Cholesky, false) => (Way::Real, &[]),
+        (SolverChoice::Auto, true) => (Way::Complex, &[Way::Iterations]),
+        (SolverChoice::Auto, false) if !is_near_product || problem.weights().is_some() => {
+            (Way::Real, &[Way::Iterations])
+        }
+        // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
+        (SolverChoice::Auto, false) if large || settings.precision == Precision::Single => {
+            (Way::ComplexIterations, &[Way::Real, Way::Iterations])
+        }
+        (SolverChoice::Auto, false) => (Way::Real, &[Way::ComplexIterations, Way::Iterations]),
+    }
 }
 
 impl Task<'_> {
-    /// The routes to try, the best one first.
-    fn candidates(&self) -> &'static [Route] {
-        let large = self.problem.unknowns() >= LARGE;
-        // Where the product (L + iD) W (L − iD) is near the system, if not the system itself.
-        let paired = self.problem.pull.is_some() && self.problem.inner.is_some();
-        match (self.manner.choice, self.problem.splits) {
-            (SolverChoice::ConjugateGradient, _) => &[Route::Iterative],
-            (SolverChoice::Cholesky, true) => &[Route::ComplexCholesky],
-            (SolverChoice::Cholesky, false) => &[Route::Cholesky],
-            (SolverChoice::Auto, true) => &[Route::ComplexCholesky, Route::Iterative],
-            (SolverChoice::Auto, false) if !paired || self.problem.weights.is_some() => {
-                &[Route::Cholesky, Route::Iterative]
-            }
-            // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
-            (SolverChoice::Auto, false) if large || self.manner.precision == Precision::Single => {
-                &[Route::CgComplexCholesky, Route::Cholesky, Route::Iterative]
-            }
-            (SolverChoice::Auto, false) => &[Route::Cholesky, Route::CgComplexCholesky, Route::Iterative],
-        }
-    }
-
-    /// The diagonal D of the second-order operator that the routes for a symmetric L are made from, DWD ≈ εB: √ε·B where the
-    /// system splits, else √(ε·b/w) with the row sums b of B.
+    /// The diagonal D of the second-order operator that the routes for a symmetric A are made from, DWD ≈ εB: √ε·B where the
+    /// system is a product, else √(ε·b/w) with the row sums b of B.
     pub(super) fn shift(&self) -> Vec<f64> {
         let n = self.problem.unknowns();
-        let Some(Pull { mass, .. }) = self.problem.pull else { return vec![0.0; n] };
-        let root = self.key.0.sqrt();
-        let sums = match mass {
+        let Some(data) = self.problem.data() else { return vec![0.0; n] };
+        let root = data.epsilon.sqrt();
+        let sums = match data.mass {
             Mass::Identity => return vec![root; n],
-            Mass::Diagonal(masses) if self.problem.splits => return masses.iter().map(|m| root * m).collect(),
+            Mass::Diagonal(masses) if self.problem.is_product() => return masses.iter().map(|m| root * m).collect(),
             Mass::Diagonal(masses) => masses.clone(),
             // The rows of the Galerkin mass matrix sum to the lumped masses.
-            Mass::Matrix(_) => mass.times(&vec![1.0; n]),
+            Mass::Matrix(_) | Mass::Partial(_) => data.mass.times(&vec![1.0; n]),
         };
-        let weight = |i: usize| self.problem.weights.map_or(1.0, |weights| weights[i]);
+        let weights = self.problem.weights();
+        let weight = |i: usize| weights.map_or(1.0, |weights| weights[i]);
         sums.iter().enumerate().map(|(i, b)| root * (b / weight(i)).sqrt()).collect()
     }
 
@@ -126,66 +136,94 @@ impl Task<'_> {
 }
 
 impl Routes {
-    /// Tries the routes in turn: the next one where memory is short or a factor is not good enough. The first failure is
-    /// the one reported.
-    pub(super) fn solve(&mut self, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
+    /// What solving is expected to be, and whether it takes an analysis and a factorisation.
+    pub(super) fn forecast(
+        &self,
+        problem: &Problem<'_>,
+        key: &FactorKey,
+        settings: SolverSettings,
+    ) -> (Work, bool, bool) {
+        let (best, _) = ways(problem, settings);
+        let way = self.last.as_ref().filter(|last| last.key == *key).map_or(best, |last| last.way);
+        let complex = (self.complex.is_none(), !self.complex.as_ref().is_some_and(|factors| factors.has(key)));
+        let real = (self.real.is_none(), !self.real.as_ref().is_some_and(|route| route.has(key)));
+        match way {
+            Way::Complex => (Work::FactorOfLaplacian, complex.0, complex.1),
+            Way::ComplexIterations => (Work::PreconditionedByFactor, complex.0, complex.1),
+            Way::Real if matches!(problem.form, Form::Symmetric) => (Work::FactorOfLaplacian, real.0, real.1),
+            Way::Real => (Work::FactorOfSquare, real.0, real.1),
+            Way::Iterations => (Work::Iterations, false, false),
+        }
+    }
+
+    /// Tries the ways in turn: the next one where memory is short or a factor is not good enough. The first failure is
+    /// the one reported. Being stopped is no reason to try another way.
+    pub(super) fn solve(&mut self, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
         if task.problem.unknowns() == 0 {
-            let iterates = vec![Iterate::default(); task.loads.len()];
             return Ok(Answer {
-                iterates,
-                route: "none",
-                precision: "double",
+                iterates: vec![Iterate::default(); task.right_hand_sides.len()],
+                route: Route::None,
+                precision: UsedPrecision::Double,
                 factor_nonzeros: 0,
                 smallest_eigenvalue: None,
             });
         }
         // The same system again, with its factor at hand: what failed the last time would fail again.
-        if let Some((key, route, precision)) = self.last.take().filter(|(key, ..)| *key == task.key) {
-            let tried = if precision == "single" { Precision::Single } else { Precision::Double };
-            if route != Route::Iterative
-                && let Ok(answer) = self.factored(route, task, tried, progress)
-            {
-                self.last = Some((key, route, precision));
-                return Ok(Answer { precision, ..answer });
+        if let Some(last) = self.last.take().filter(|last| last.key == *task.key && last.way != Way::Iterations) {
+            let tried = if last.precision == UsedPrecision::Single { Precision::Single } else { Precision::Double };
+            match self.factored(last.way, task, tried, stages) {
+                Ok(answer) => {
+                    let precision = last.precision;
+                    self.last = Some(last);
+                    return Ok(Answer { precision, ..answer });
+                }
+                Err(SolveError::Cancelled {}) => return Err(SolveError::Cancelled {}),
+                Err(_) => {}
             }
         }
-        let mut first_failure = None;
-        for &route in task.candidates() {
-            // Iterations hardly go where a factor did not; they only need less memory. But where nothing pulls, it is the square
-            // that a factor fails at, and multigrid has the root of it.
-            let by_root = task.problem.pull.is_none() && task.problem.inner.is_some();
-            let hopeless =
-                !by_root && first_failure.as_ref().is_some_and(|f| !matches!(f, SolveError::OutOfMemory { .. }));
-            if route == Route::Iterative && hopeless {
+        let (best, others) = ways(&task.problem, task.settings);
+        let first_failure = match self.by(best, task, stages) {
+            Err(failure) => failure,
+            solved => return solved,
+        };
+        // Iterations hardly go where a factor did not; they only need less memory. But where there is no data term, it is the
+        // square that a factor fails at, and multigrid has the root of it.
+        let by_root = task.problem.data().is_none() && task.problem.symmetric_part().is_some();
+        let hopeless = !by_root && !matches!(first_failure, SolveError::OutOfMemory { .. });
+        for &way in others {
+            if matches!(first_failure, SolveError::Cancelled {}) || way == Way::Iterations && hopeless {
                 break;
             }
-            match self.by(route, task, progress) {
-                Err(failure) => {
-                    first_failure.get_or_insert(failure);
-                }
-                Ok(answer) => {
-                    self.last = Some((task.key, route, answer.precision));
-                    return Ok(answer);
-                }
+            match self.by(way, task, stages) {
+                Err(SolveError::Cancelled {}) => return Err(SolveError::Cancelled {}),
+                Err(_) => {}
+                solved => return solved,
             }
         }
-        Err(first_failure.unwrap_or(SolveError::PatternMismatch {}))
+        Err(first_failure)
     }
 
     /// Gives the memory of the last factors back.
     pub(super) fn drop_factors(&mut self) {
-        self.complex.iter_mut().for_each(ComplexRoute::drop_factor);
+        self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
         self.real.iter_mut().for_each(RealRoute::drop_factor);
     }
 
-    fn by(&mut self, route: Route, task: &Task<'_>, progress: Progress<'_>) -> Result<Answer, SolveError> {
-        if route == Route::Iterative {
+    /// Solves in one way, and remembers it.
+    fn by(&mut self, way: Way, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
+        let answer = self.tried(way, task, stages)?;
+        self.last = Some(Solver { key: task.key.clone(), way, precision: answer.precision });
+        Ok(answer)
+    }
+
+    fn tried(&mut self, way: Way, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
+        if way == Way::Iterations {
             *self = Self::default();
-            progress(Phase::Solve, 0.1);
-            return iterative::solve(task);
+            stages.begin(Phase::Solve, 0)?;
+            return iterative::solve(task, stages.watch);
         }
-        if task.manner.precision == Precision::Single {
-            match self.factored(route, task, Precision::Single, progress) {
+        if task.settings.precision == Precision::Single {
+            match self.factored(way, task, Precision::Single, stages) {
                 Ok(answer) => return Ok(answer),
                 // Single precision was not enough for this matrix.
                 Err(
@@ -195,30 +233,31 @@ impl Routes {
                 ) => {}
                 Err(other) => return Err(other),
             }
-            let answer = self.factored(route, task, Precision::Double, progress)?;
-            return Ok(Answer { precision: "doubleAfterSingle", ..answer });
+            let answer = self.factored(way, task, Precision::Double, stages)?;
+            return Ok(Answer { precision: UsedPrecision::DoubleAfterSingle, ..answer });
         }
-        self.factored(route, task, Precision::Double, progress)
+        self.factored(way, task, Precision::Double, stages)
     }
 
     fn factored(
         &mut self,
-        route: Route,
+        way: Way,
         task: &Task<'_>,
         precision: Precision,
-        progress: Progress<'_>,
+        stages: &mut Stages<'_, '_>,
     ) -> Result<Answer, SolveError> {
         // One factor at a time: each can take most of the memory, and where it does, the analysis must go too. An error
         // leaves the analysis, which stays valid.
         let large = task.problem.unknowns() >= LARGE;
-        if route == Route::Cholesky {
+        if way == Way::Real {
             self.complex = self.complex.take().filter(|_| !large);
-            self.complex.iter_mut().for_each(ComplexRoute::drop_factor);
-            analysed(&mut self.real, || RealRoute::new(task), progress)?.solve(task, precision, progress)
+            self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
+            analysed(&mut self.real, &|watch| RealRoute::new(task, watch), stages)?.solve(task, precision, stages)
         } else {
             self.real = self.real.take().filter(|_| !large);
             self.real.iter_mut().for_each(RealRoute::drop_factor);
-            analysed(&mut self.complex, || ComplexRoute::new(task), progress)?.solve(task, precision, progress)
+            let factors = analysed(&mut self.complex, &|watch| complex::analyse(task, watch), stages)?;
+            complex::solve(factors, task, precision, stages)
         }
     }
 }
@@ -226,14 +265,14 @@ impl Routes {
 /// What is there, or is made now.
 fn analysed<'a, T>(
     slot: &'a mut Option<T>,
-    make: impl FnOnce() -> Result<T, SolveError>,
-    progress: Progress<'_>,
+    make: &dyn Fn(&Watch<'_>) -> Result<T, SolveError>,
+    stages: &mut Stages<'_, '_>,
 ) -> Result<&'a mut T, SolveError> {
     match slot {
         Some(there) => Ok(there),
         none => {
-            progress(Phase::Analysis, 0.0);
-            Ok(none.insert(make()?))
+            stages.begin(Phase::Analysis, 0)?;
+            Ok(none.insert(make(stages.watch)?))
         }
     }
 }

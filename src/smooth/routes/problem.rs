@@ -1,64 +1,81 @@
-//! What a solver is given: a system in factored form, and what is asked of it.
+//! What a route is given: a system in factored form, and what is asked of it.
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::smooth::data_term::Mass;
 use crate::solve::{norm, product, transposed_product};
 
-/// How the matrix A of a [`Problem`] makes the system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::smooth) enum Order {
-    /// Ax = −c, with A symmetric and positive definite.
-    First,
-    /// (AᵀWA/scale + εB) x = εBf − AᵀWc/scale.
-    Squared,
-}
-
-/// A linear system. Its right-hand sides are [`Load`]s.
+/// A linear system. Its right-hand sides are [`RightHandSide`]s.
 #[derive(Clone, Copy)]
 pub(in crate::smooth) struct Problem<'a> {
     /// A: a column for every unknown.
     pub(in crate::smooth) matrix: &'a CscMatrix<f64>,
-    pub(in crate::smooth) order: Order,
-    /// The diagonal of W; nothing for the identity.
-    pub(in crate::smooth) weights: Option<&'a [f64]>,
-    /// εB; nothing where the unknowns are not pulled anywhere.
-    pub(in crate::smooth) pull: Option<Pull<'a>>,
-    /// The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
-    pub(in crate::smooth) scale: f64,
-    /// The rows of A that belong to unknowns, where they make a symmetric matrix.
-    pub(in crate::smooth) inner: Option<Inner<'a>>,
-    /// Whether W = B⁻¹, so that the system is a product of two of first order.
-    pub(in crate::smooth) splits: bool,
+    pub(in crate::smooth) form: Form<'a>,
 }
 
-/// The rows of the unknowns, in the order of the columns.
+/// How the matrix A of a [`Problem`] makes the system.
+///
+/// An interior-point method, which adds DᵀVD for edges D and other V in every step, will be a form beside `Regularized`: its values
+/// go to places of the pattern of AᵀA that one analysis holds, and the step's number goes into the key of the factor.
 #[derive(Clone, Copy)]
-pub(in crate::smooth) struct Inner<'a> {
+pub(in crate::smooth) enum Form<'a> {
+    /// Ax = −c, with A symmetric and positive definite.
+    Symmetric,
+    /// AᵀWAx = −AᵀWc.
+    Normal {
+        weights: Weights<'a>,
+        /// The rows of A that belong to unknowns, where they make a symmetric matrix.
+        symmetric_part: Option<SymmetricPart<'a>>,
+    },
+    /// (AᵀWA + εB) x = εBf − AᵀWc for a square A, divided by [`DataPart::scale`].
+    Regularized { weights: Weights<'a>, data: DataPart<'a>, symmetry: Symmetry },
+}
+
+/// The diagonal of W; nothing for the identity.
+pub(in crate::smooth) type Weights<'a> = Option<&'a [f64]>;
+
+/// What is symmetric about a regularised system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::smooth) enum Symmetry {
+    /// A is not symmetric.
+    Unsymmetric,
+    /// A is symmetric.
+    Symmetric,
+    /// A is symmetric and W = B⁻¹: the system is a product of two of first order, (A + i√ε·B) W (A − i√ε·B).
+    Product,
+}
+
+/// A symmetric matrix in the order of the unknowns.
+#[derive(Clone, Copy)]
+pub(in crate::smooth) struct SymmetricPart<'a> {
     pub(in crate::smooth) matrix: &'a CscMatrix<f64>,
-    /// The diagonal of W there.
-    pub(in crate::smooth) weights: Option<&'a [f64]>,
+    /// W at its rows.
+    pub(in crate::smooth) weights: Weights<'a>,
 }
 
-/// εB.
+/// The matrix εB of the data term.
 #[derive(Clone, Copy)]
-pub(in crate::smooth) struct Pull<'a> {
+pub(in crate::smooth) struct DataPart<'a> {
     pub(in crate::smooth) mass: &'a Mass,
-    /// ε/scale.
     pub(in crate::smooth) epsilon: f64,
 }
 
-/// B on the unknowns.
-#[derive(Debug)]
-pub(in crate::smooth) enum Mass {
-    Identity,
-    Diagonal(Vec<f64>),
-    Matrix(CscMatrix<f64>),
+impl DataPart<'_> {
+    /// The system is divided by this, so that neither a huge nor a tiny ε leaves the range of double precision.
+    pub(in crate::smooth) fn scale(&self) -> f64 {
+        self.epsilon.max(1.0)
+    }
+
+    /// ε in the system that is divided by the scale.
+    pub(in crate::smooth) fn scaled_epsilon(&self) -> f64 {
+        self.epsilon / self.scale()
+    }
 }
 
 /// One right-hand side.
 #[derive(Debug, Default)]
-pub(in crate::smooth) struct Load {
-    /// f: where the unknowns are pulled; empty without a pull.
+pub(in crate::smooth) struct RightHandSide {
+    /// f: the data at the unknowns; empty without a data term.
     pub(in crate::smooth) field: Vec<f64>,
     /// c: what is known of A's image, per row; empty for nothing.
     pub(in crate::smooth) offset: Vec<f64>,
@@ -72,19 +89,60 @@ pub(in crate::smooth) fn difference(x: &[f64], f: &[f64]) -> Vec<f64> {
     difference
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
     pub(in crate::smooth) fn unknowns(&self) -> usize {
         self.matrix.ncols()
     }
 
-    /// ε/scale; 0 without a pull.
-    pub(in crate::smooth) fn epsilon(&self) -> f64 {
-        self.pull.map_or(0.0, |pull| pull.epsilon)
+    /// About how long a product with the matrix of the system takes, in ticks.
+    pub(in crate::smooth) fn ticks(&self) -> u64 {
+        6 * (self.matrix.nnz() + self.unknowns()) as u64
+    }
+
+    pub(in crate::smooth) fn data(&self) -> Option<DataPart<'a>> {
+        match self.form {
+            Form::Regularized { data, .. } => Some(data),
+            Form::Symmetric | Form::Normal { .. } => None,
+        }
+    }
+
+    pub(in crate::smooth) fn weights(&self) -> Weights<'a> {
+        match self.form {
+            Form::Symmetric => None,
+            Form::Normal { weights, .. } | Form::Regularized { weights, .. } => weights,
+        }
+    }
+
+    /// A, or what is symmetric of it in the order of the unknowns; nothing where nothing is.
+    pub(in crate::smooth) fn symmetric_part(&self) -> Option<SymmetricPart<'a>> {
+        match self.form {
+            Form::Symmetric => Some(SymmetricPart { matrix: self.matrix, weights: None }),
+            Form::Normal { symmetric_part, .. } => symmetric_part,
+            Form::Regularized { symmetry: Symmetry::Unsymmetric, .. } => None,
+            Form::Regularized { weights, .. } => Some(SymmetricPart { matrix: self.matrix, weights }),
+        }
+    }
+
+    /// Whether the system is a product of two complex ones of first order.
+    pub(in crate::smooth) fn is_product(&self) -> bool {
+        matches!(self.form, Form::Regularized { symmetry: Symmetry::Product, .. })
     }
 
     /// Whether A itself, with all its rows, is symmetric.
     fn is_symmetric(&self) -> bool {
-        self.inner.is_some_and(|inner| core::ptr::eq(inner.matrix, self.matrix))
+        match self.form {
+            Form::Symmetric => true,
+            Form::Normal { .. } => false,
+            Form::Regularized { symmetry, .. } => symmetry != Symmetry::Unsymmetric,
+        }
+    }
+
+    fn is_first_order(&self) -> bool {
+        matches!(self.form, Form::Symmetric)
+    }
+
+    pub(super) fn scale(&self) -> f64 {
+        self.data().map_or(1.0, |data| data.scale())
     }
 
     /// Ax + c.
@@ -100,23 +158,25 @@ impl Problem<'_> {
     #[inline(never)]
     fn smoothing(&self, x: &[f64], offset: &[f64]) -> Vec<f64> {
         let mut image = self.image(x, offset);
-        if self.order == Order::First {
+        if self.is_first_order() {
             return image;
         }
-        match self.weights {
-            Some(weights) => image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w / self.scale),
-            None => image.iter_mut().for_each(|y| *y /= self.scale),
+        let scale = self.scale();
+        match self.weights() {
+            Some(weights) => image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w / scale),
+            None => image.iter_mut().for_each(|y| *y /= scale),
         }
         transposed_product(self.matrix, &image)
     }
 
     /// What the right-hand side is more than the matrix times x.
-    pub(in crate::smooth) fn residual(&self, load: &Load, x: &[f64]) -> Vec<f64> {
-        let mut residual = self.smoothing(x, &load.offset);
-        match self.pull {
-            Some(Pull { mass, epsilon }) => {
-                let pull = mass.times(&difference(&load.field, x));
-                residual.iter_mut().zip(pull).for_each(|(r, b)| *r = epsilon * b - *r);
+    pub(in crate::smooth) fn residual(&self, side: &RightHandSide, x: &[f64]) -> Vec<f64> {
+        let mut residual = self.smoothing(x, &side.offset);
+        match self.data() {
+            Some(data) => {
+                let epsilon = data.scaled_epsilon();
+                let fidelity = data.mass.times(&difference(&side.field, x));
+                residual.iter_mut().zip(fidelity).for_each(|(r, b)| *r = epsilon * b - *r);
             }
             None => residual.iter_mut().for_each(|r| *r = -*r),
         }
@@ -126,67 +186,43 @@ impl Problem<'_> {
     /// The matrix times x.
     pub(in crate::smooth) fn apply(&self, x: &[f64]) -> Vec<f64> {
         let mut image = self.smoothing(x, &[]);
-        if let Some(Pull { mass, epsilon }) = self.pull {
-            image.iter_mut().zip(mass.times(x)).for_each(|(l, b)| *l += epsilon * b);
+        if let Some(data) = self.data() {
+            let epsilon = data.scaled_epsilon();
+            image.iter_mut().zip(data.mass.times(x)).for_each(|(l, b)| *l += epsilon * b);
         }
         image
     }
 
     /// The diagonal of the matrix.
     pub(in crate::smooth) fn diagonal(&self) -> Vec<f64> {
-        let weight = |row: usize| self.weights.map_or(1.0, |weights| weights[row]);
+        let (scale, weights, data) = (self.scale(), self.weights(), self.data());
+        let weight = |row: usize| weights.map_or(1.0, |weights| weights[row]);
         let mut diagonal = Vec::with_capacity(self.unknowns());
         for (j, column) in self.matrix.col_iter().enumerate() {
             let mut sum = 0.0;
             for (&row, v) in column.row_indices().iter().zip(column.values()) {
-                match self.order {
-                    Order::Squared => sum += v * v * weight(row),
-                    Order::First if row == j => sum = *v,
-                    Order::First => {}
+                if !self.is_first_order() {
+                    sum += v * v * weight(row);
+                } else if row == j {
+                    sum = *v;
                 }
             }
-            diagonal.push(sum / self.scale + self.pull.map_or(0.0, |pull| pull.epsilon * pull.mass.diagonal(j)));
+            diagonal.push(sum / scale + data.map_or(0.0, |data| data.scaled_epsilon() * data.mass.diagonal(j)));
         }
         diagonal
     }
 
     /// ‖b − Ax‖₂/‖b‖₂ of the whole system.
-    pub(in crate::smooth) fn relative_residual(&self, load: &Load, x: &[f64]) -> f64 {
-        let residual = norm(&self.residual(load, x));
+    pub(in crate::smooth) fn relative_residual(&self, side: &RightHandSide, x: &[f64]) -> f64 {
+        let residual = norm(&self.residual(side, x));
         if residual == 0.0 {
             return 0.0;
         }
         residual
-            / match self.pull {
-                Some(Pull { mass, epsilon }) if load.offset.is_empty() => epsilon * norm(&mass.times(&load.field)),
-                None if self.order == Order::First => norm(&load.offset),
-                _ => norm(&self.residual(load, &vec![0.0; x.len()])),
+            / match self.data() {
+                Some(data) if side.offset.is_empty() => data.scaled_epsilon() * norm(&data.mass.times(&side.field)),
+                None if self.is_first_order() => norm(&side.offset),
+                _ => norm(&self.residual(side, &vec![0.0; x.len()])),
             }
-    }
-}
-
-impl Mass {
-    #[inline(never)]
-    pub(in crate::smooth) fn times(&self, x: &[f64]) -> Vec<f64> {
-        match self {
-            Self::Identity => x.to_vec(),
-            Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
-            // Symmetric, so the product that gathers serves.
-            Self::Matrix(matrix) => transposed_product(matrix, x),
-        }
-    }
-
-    pub(in crate::smooth) fn diagonal(&self, i: usize) -> f64 {
-        match self {
-            Self::Identity => 1.0,
-            Self::Diagonal(diagonal) => diagonal[i],
-            Self::Matrix(matrix) => matrix.get_entry(i, i).map_or(0.0, |entry| entry.into_value()),
-        }
-    }
-
-    /// ‖x‖_B
-    pub(in crate::smooth) fn norm(&self, x: &[f64]) -> f64 {
-        let square: f64 = self.times(x).iter().zip(x).map(|(a, b)| a * b).sum();
-        square.max(0.0).sqrt()
     }
 }

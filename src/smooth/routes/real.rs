@@ -3,13 +3,17 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::eigenvalue::smallest_eigenvalue;
-use super::factors::Factors;
+use super::factors::{FactorKey, Factors};
+use super::problem::Form;
 use super::refine::{Refinement, refine};
-use super::{Answer, Mass, Order, Problem, Pull, Task};
-use crate::Watch;
+use super::{Answer, Problem, Task};
 use crate::error::SolveError;
-use crate::smooth::{Phase, Precision, Progress};
+use crate::smooth::Precision;
+use crate::smooth::data_term::Mass;
+use crate::smooth::names::Route;
+use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, gram};
+use crate::support::watch::{Phase, Watch};
 
 /// A or AᵀWA, its analysis, and the last factor.
 #[derive(Debug)]
@@ -20,21 +24,26 @@ pub(super) struct RealRoute {
 }
 
 impl RealRoute {
-    pub(super) fn new(task: &Task<'_>) -> Result<Self, SolveError> {
-        let Problem { matrix, order, weights, .. } = task.problem;
-        let system = match (order, weights) {
-            (Order::First, _) => matrix.clone(),
-            (Order::Squared, None) => gram(matrix, &Watch::none())?,
-            (Order::Squared, Some(weights)) => {
+    pub(super) fn new(task: &Task<'_>, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        let Problem { matrix, form } = task.problem;
+        let system = match form {
+            Form::Symmetric => matrix.clone(),
+            Form::Normal { weights: None, .. } | Form::Regularized { weights: None, .. } => gram(matrix, watch)?,
+            Form::Normal { weights: Some(weights), .. } | Form::Regularized { weights: Some(weights), .. } => {
                 let mut scaled = matrix.clone();
                 let (_, rows, values) = scaled.csc_data_mut();
                 rows.iter().zip(values).for_each(|(&row, value)| *value *= weights[row].sqrt());
-                gram(&scaled, &Watch::none())?
+                gram(&scaled, watch)?
             }
         };
         let (pattern, values) = system.into_pattern_and_values();
-        let analysis = CholeskyAnalysis::new(pattern, &Watch::none())?;
+        let analysis = CholeskyAnalysis::new(pattern, watch)?;
         Ok(Self { values, factors: Factors::new(analysis) })
+    }
+
+    /// Whether the last factor has this key.
+    pub(super) fn has(&self, key: &FactorKey) -> bool {
+        self.factors.has(key)
     }
 
     pub(super) fn drop_factor(&mut self) {
@@ -45,36 +54,40 @@ impl RealRoute {
         &mut self,
         task: &Task<'_>,
         precision: Precision,
-        progress: Progress<'_>,
+        stages: &mut Stages<'_, '_>,
     ) -> Result<Answer, SolveError> {
         let values = |analysis: &CholeskyAnalysis| values(&self.values, analysis.pattern(), &task.problem);
-        let factor = self.factors.take(task.key, precision, &values, progress)?;
-        progress(Phase::Solve, 0.9);
-        let n = task.problem.unknowns();
-        let iterates = refine(Refinement {
-            count: task.loads.len(),
-            length: n,
+        let factor = self.factors.take(task.key, precision, &values, stages)?;
+        stages.begin(Phase::Solve, 0)?;
+        let watch = stages.watch;
+        let refinement = Refinement {
+            count: task.right_hand_sides.len(),
+            length: task.problem.unknowns(),
             tolerance: task.tolerance(precision),
             inverse_norm: None,
-            residual: &|c, x| task.problem.residual(&task.loads[c], x),
-            solve: &mut |b, _| factor.solve(b),
-        })?;
-        let eigenvalue = match task.manner.bounds {
-            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b)),
+            ticks: task.problem.ticks(),
+            residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
+            solve: &mut |b, _| factor.solve(b, watch),
+        };
+        let iterates = refine(refinement, watch)?;
+        let eigenvalue = match task.settings.bounds {
+            true => smallest_eigenvalue(&task.problem, &mut |b| factor.solve(b, watch), watch)?,
             false => None,
         };
-        Ok(self.factors.answer(task.key, factor, iterates, "cholesky", eigenvalue))
+        Ok(self.factors.answer(task.key, factor, iterates, Route::Cholesky, eigenvalue))
     }
 }
 
 /// The values of A, or of AᵀWA/scale + εB on the pattern of AᵀA, which holds that of B.
 fn values(matrix: &[f64], pattern: &SparsityPattern, problem: &Problem<'_>) -> Vec<f64> {
-    let mut values: Vec<f64> = matrix.iter().map(|value| value / problem.scale).collect();
-    let Some(Pull { mass, epsilon }) = problem.pull else { return values };
+    let scale = problem.scale();
+    let mut values: Vec<f64> = matrix.iter().map(|value| value / scale).collect();
+    let Some(data) = problem.data() else { return values };
+    let (mass, epsilon) = (data.mass, data.scaled_epsilon());
     for j in 0..pattern.major_dim() {
         let start = pattern.major_offsets()[j];
         let rows = pattern.lane(j);
-        if let Mass::Matrix(matrix) = mass {
+        if let Mass::Matrix(matrix) | Mass::Partial(matrix) = mass {
             let column = matrix.col(j);
             let mut place = 0;
             for (&row, &value) in column.row_indices().iter().zip(column.values()) {

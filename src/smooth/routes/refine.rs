@@ -2,6 +2,7 @@
 
 use crate::error::SolveError;
 use crate::solve::norm;
+use crate::support::watch::{Phase, Watch};
 
 const MOST_STEPS: usize = 12;
 /// Relative corrections of this size are rounding.
@@ -10,6 +11,10 @@ const ROUNDING: f64 = 1e-13;
 const PROVEN: f64 = 1e-14;
 /// Corrections of this size that shrink no more are rounding too, on a badly conditioned system.
 const ROUGH_ROUNDING: f64 = 1e-10;
+
+/// The shares of the solution and of its corrections, of which two are usual.
+const ROUNDS: [(Phase, f64); 5] =
+    [(Phase::Solve, 4.0), (Phase::Solve, 3.0), (Phase::Solve, 2.0), (Phase::Solve, 1.0), (Phase::Solve, 1.0)];
 
 /// One solved right-hand side.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +34,8 @@ pub(super) struct Refinement<'a> {
     pub(super) tolerance: f64,
     /// A bound of the norm of the matrix's inverse, where one is known: with it a residual tells that no correction is needed.
     pub(super) inverse_norm: Option<f64>,
+    /// About how long a residual takes, in ticks.
+    pub(super) ticks: u64,
     /// The residual of a right-hand side at an approximate solution.
     pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
@@ -44,14 +51,17 @@ type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>
 /// relative to the solution, is such a factor too.
 ///
 /// # Errors
-/// `NotConverged` where corrections do not shrink; those of the solver.
-pub(super) fn refine(task: Refinement<'_>) -> Result<Vec<Iterate>, SolveError> {
-    let Refinement { count, length: n, tolerance, inverse_norm, residual, solve } = task;
+/// `NotConverged` where corrections do not shrink; `Cancelled`; those of the solver.
+pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iterate>, SolveError> {
+    let Refinement { count, length: n, tolerance, inverse_norm, ticks, residual, solve } = task;
+    let mut plan = watch.plan(&ROUNDS);
     let start = Iterate { x: vec![0.0; n], ..Iterate::default() };
     let mut iterates = vec![start; count];
     let mut open: Vec<usize> = (0..count).collect();
     let (mut previous, mut slowest) = (vec![1.0; count], vec![0.0_f64; count]);
     for step in 0..=MOST_STEPS {
+        plan.begin(0)?;
+        watch.tick(ticks * open.len() as u64)?;
         let mut residuals = Vec::with_capacity(open.len() * n);
         open.retain(|&c| {
             let rest = residual(c, &iterates[c].x);

@@ -1,24 +1,23 @@
 //! The linear systems of \[Patane09, section 4\] on the vertices of a mesh.
 //!
-//! - [`FullSystem`]: every vertex that the operators reach is an unknown, and pulled towards its value or not: eqs. (3), (5), (7).
+//! - [`RegularizedSystem`]: every active vertex is an unknown, and a data term ties some or all to their values: eqs. (3), (5), (7).
 //! - [`ReducedSystem`]: some vertices are fixed, the others are the unknowns: eq. (6).
 
-mod full;
-mod reach;
 mod reduced;
+mod regularized;
 
-pub(super) use full::{Attraction, FullSystem};
-pub(super) use reach::Reach;
 pub use reduced::Energy;
 pub(super) use reduced::ReducedSystem;
+pub(super) use regularized::RegularizedSystem;
 
-use super::routes::{Answer, Load, Problem};
-use crate::error::{Error, SolveError};
+use super::names::{Route, UsedPrecision};
+use super::routes::{Answer, Problem, RightHandSide};
+use crate::error::{Error, SmoothError, SolveError};
 
 /// One solved channel.
 #[derive(Debug)]
 pub(super) struct Solution {
-    /// Per unknown, normalised.
+    /// The normalised values of the unknowns.
     pub(super) x: Vec<f64>,
     /// ‖b − Ax‖₂/‖b‖₂ in factored form.
     pub(super) relative_residual: f64,
@@ -26,12 +25,12 @@ pub(super) struct Solution {
     pub(super) iterations: usize,
 }
 
-/// All channels, and what the solver was.
+/// All channels, and how they were solved.
 #[derive(Debug)]
 pub(super) struct Solved {
     pub(super) solutions: Vec<Solution>,
-    pub(super) route: &'static str,
-    pub(super) precision: &'static str,
+    pub(super) route: Route,
+    pub(super) precision: UsedPrecision,
     pub(super) unknowns: usize,
     pub(super) factor_nonzeros: u64,
     /// See [`Answer`].
@@ -39,13 +38,13 @@ pub(super) struct Solved {
 }
 
 /// The answer as solutions, with their residuals.
-fn solved(problem: &Problem<'_>, loads: &[Load], answer: Answer) -> Solved {
+fn solved(problem: &Problem<'_>, right_hand_sides: &[RightHandSide], answer: Answer) -> Solved {
     let solutions = answer
         .iterates
         .into_iter()
-        .zip(loads)
-        .map(|(iterate, load)| Solution {
-            relative_residual: problem.relative_residual(load, &iterate.x),
+        .zip(right_hand_sides)
+        .map(|(iterate, side)| Solution {
+            relative_residual: problem.relative_residual(side, &iterate.x),
             refinement_steps: iterate.refinement_steps,
             iterations: iterate.iterations,
             x: iterate.x,
@@ -61,11 +60,14 @@ fn solved(problem: &Problem<'_>, loads: &[Load], answer: Answer) -> Solved {
     }
 }
 
-/// Unknowns are vertices to the user.
-fn by_vertex(unknowns: &[u32], error: SolveError) -> Error {
+/// A failure of the solver in the words of meshes, where unknowns are vertices.
+fn on_mesh(unknowns: &[u32], error: SolveError) -> Error {
     let vertex = |place: usize| unknowns.get(place).map_or(place, |&v| v as usize);
     match error {
-        SolveError::NotPositiveDefinite { column } => SolveError::NotPositiveDefinite { column: vertex(column) }.into(),
+        SolveError::NotPositiveDefinite { column } => {
+            SmoothError::NotPositiveDefinite { column: vertex(column) }.into()
+        }
+        SolveError::NotConverged { iterations, residual } => SmoothError::NotConverged { iterations, residual }.into(),
         SolveError::NonFiniteEntry { row } => SolveError::NonFiniteEntry { row: vertex(row) }.into(),
         other => other.into(),
     }

@@ -1,14 +1,19 @@
 //! The systems of interpolation, eq. (6) of \[Patane09\]: the values of some vertices are fixed, and the others are unknowns.
 
+use std::sync::Arc;
+
 use nalgebra_sparse::CscMatrix;
 
-use super::{Solved, by_vertex, solved};
+use super::{Solved, on_mesh, solved};
 use crate::error::Result;
-use crate::mesh::TriMesh;
 use crate::operators::{MassScale, lumped_mass_diagonal};
-use crate::smooth::routes::{Inner, Load, Manner, Order, Problem, Routes, Task};
-use crate::smooth::{Operator, Progress};
+use crate::smooth::Operator;
+use crate::smooth::channels::Channel;
+use crate::smooth::operators::Operators;
+use crate::smooth::routes::{FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, SymmetricPart, Task};
+use crate::smooth::schedule::Stages;
 use crate::solve::{columns, product, submatrix};
+use crate::support::named::named;
 
 /// What interpolation makes least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,67 +26,80 @@ pub enum Energy {
     Biharmonic,
 }
 
+named! { Energy { Harmonic = "harmonic", Biharmonic = "biharmonic" } }
+
 /// Everything about the system of one set of fixed vertices.
 #[derive(Debug)]
 pub(in crate::smooth) struct ReducedSystem {
-    energy: Energy,
     /// The vertices that are unknowns, ascending.
-    free: Vec<u32>,
+    free: Arc<[u32]>,
     /// The matrix whose image is made small: L on the free vertices, or for the biharmonic energy the free columns with all rows.
     matrix: CscMatrix<f64>,
-    /// L on the free vertices beside it, where that is symmetric.
-    inner: Option<CscMatrix<f64>>,
-    /// The diagonal of W, for all vertices and for the free ones.
-    weights: Option<Vec<f64>>,
-    inner_weights: Option<Vec<f64>>,
+    equations: Equations,
     routes: Routes,
 }
 
+/// What kind of system it is.
+#[derive(Debug)]
+enum Equations {
+    /// The harmonic energy with a symmetric L.
+    Harmonic,
+    /// The harmonic energy with another L, by normal equations.
+    HarmonicSquared,
+    /// The biharmonic energy.
+    Biharmonic {
+        /// The diagonal of W, for all vertices.
+        weights: Option<Vec<f64>>,
+        /// L on the free vertices, where it is symmetric, and W there.
+        symmetric_part: Option<(CscMatrix<f64>, Option<Vec<f64>>)>,
+    },
+}
+
 impl ReducedSystem {
-    pub(in crate::smooth) fn new(
-        mesh: &TriMesh,
-        laplacian: &CscMatrix<f64>,
-        operator: Operator,
-        symmetric: bool,
-        energy: Energy,
-        free: Vec<u32>,
-    ) -> Result<Self> {
-        let harmonic = energy == Energy::Harmonic;
-        let weights: Option<Vec<f64>> = match operator {
-            Operator::Fem if !harmonic => {
-                let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
-                // Rows without a usable area belong to vertices that are not reached.
-                let inverse = |area: &f64| Some(area.recip()).filter(|x| x.is_finite()).unwrap_or(0.0);
-                Some(areas.iter().map(inverse).collect())
+    pub(in crate::smooth) fn new(operators: &Operators, energy: Energy, free: &[u32]) -> Result<Self> {
+        let laplacian = &operators.laplacian;
+        let equations = match (energy, operators.is_symmetric()) {
+            (Energy::Harmonic, true) => Equations::Harmonic,
+            (Energy::Harmonic, false) => Equations::HarmonicSquared,
+            (Energy::Biharmonic, is_symmetric) => {
+                let weights = weights(operators)?;
+                let at_free = |w: &Vec<f64>| free.iter().map(|&v| w[v as usize]).collect();
+                let symmetric_part = is_symmetric.then(|| (submatrix(laplacian, free), weights.as_ref().map(at_free)));
+                Equations::Biharmonic { weights, symmetric_part }
             }
-            _ => None,
         };
-        Ok(Self {
-            energy,
-            matrix: if harmonic { submatrix(laplacian, &free) } else { columns(laplacian, &free) },
-            inner: (symmetric && !harmonic).then(|| submatrix(laplacian, &free)),
-            inner_weights: weights.as_ref().map(|w| free.iter().map(|&v| w[v as usize]).collect()),
-            free,
-            weights,
-            routes: Routes::default(),
-        })
+        let matrix = match energy {
+            Energy::Harmonic => submatrix(laplacian, free),
+            Energy::Biharmonic => columns(laplacian, free),
+        };
+        Ok(Self { matrix, equations, free: free.into(), routes: Routes::default() })
     }
 
     /// Whether this is the system for these unknowns.
     pub(in crate::smooth) fn is_for(&self, energy: Energy, free: &[u32]) -> bool {
-        self.energy == energy && self.free == free
+        self.energy() == energy && *self.free == *free
     }
 
     pub(in crate::smooth) fn energy(&self) -> Energy {
-        self.energy
+        match self.equations {
+            Equations::Harmonic | Equations::HarmonicSquared => Energy::Harmonic,
+            Equations::Biharmonic { .. } => Energy::Biharmonic,
+        }
+    }
+
+    /// Whether the matrix of the system is the square of the one whose image is made small.
+    pub(in crate::smooth) fn is_squared(&self) -> bool {
+        !matches!(self.equations, Equations::Harmonic)
     }
 
     /// √W at the row of a vertex; 0 where the system has no such row.
     pub(in crate::smooth) fn row_scale(&self, vertex: usize) -> f64 {
-        match (self.energy, &self.weights) {
-            (Energy::Harmonic, _) => f64::from(u8::from(self.free.binary_search(&(vertex as u32)).is_ok())),
-            (Energy::Biharmonic, Some(weights)) => weights[vertex].sqrt(),
-            (Energy::Biharmonic, None) => 1.0,
+        match &self.equations {
+            Equations::Harmonic | Equations::HarmonicSquared => {
+                f64::from(u8::from(self.free.binary_search(&(vertex as u32)).is_ok()))
+            }
+            Equations::Biharmonic { weights: Some(weights), .. } => weights[vertex].sqrt(),
+            Equations::Biharmonic { weights: None, .. } => 1.0,
         }
     }
 
@@ -90,7 +108,7 @@ impl ReducedSystem {
         self.routes.drop_factors();
     }
 
-    pub(in crate::smooth) fn free(&self) -> &[u32] {
+    pub(in crate::smooth) fn free(&self) -> &Arc<[u32]> {
         &self.free
     }
 
@@ -98,40 +116,53 @@ impl ReducedSystem {
     pub(in crate::smooth) fn solve(
         &mut self,
         laplacian: &CscMatrix<f64>,
-        channels: &[&[f64]],
-        manner: Manner,
-        progress: Progress<'_>,
+        channels: &[Channel],
+        settings: SolverSettings,
+        stages: &mut Stages<'_, '_>,
     ) -> Result<Solved> {
-        let loads: Vec<Load> = channels.iter().map(|values| self.load(laplacian, values)).collect();
-        let harmonic = self.energy == Energy::Harmonic;
-        let inner = if harmonic { Some(&self.matrix) } else { self.inner.as_ref() };
-        let problem = Problem {
-            matrix: &self.matrix,
-            order: if harmonic && manner.symmetric { Order::First } else { Order::Squared },
-            weights: self.weights.as_deref(),
-            pull: None,
-            scale: 1.0,
-            inner: inner
-                .filter(|_| manner.symmetric)
-                .map(|matrix| Inner { matrix, weights: self.inner_weights.as_deref() }),
-            splits: false,
-        };
-        let task = Task { problem, key: (0.0, 0), loads: &loads, manner };
-        let answer = self.routes.solve(&task, progress).map_err(|error| by_vertex(&self.free, error))?;
-        Ok(solved(&problem, &loads, answer))
+        let right_hand_sides: Vec<RightHandSide> =
+            channels.iter().map(|channel| self.right_hand_side(laplacian, &channel.normalized)).collect();
+        let problem = problem(&self.matrix, &self.equations);
+        let task = Task { problem, key: &FactorKey::Plain, right_hand_sides: &right_hand_sides, settings };
+        let answer = self.routes.solve(&task, stages).map_err(|error| on_mesh(&self.free, error))?;
+        Ok(solved(&problem, &right_hand_sides, answer))
     }
 
     /// c: what L makes of the fixed values alone.
-    fn load(&self, laplacian: &CscMatrix<f64>, values: &[f64]) -> Load {
+    fn right_hand_side(&self, laplacian: &CscMatrix<f64>, values: &[f64]) -> RightHandSide {
         let mut fixed = values.to_vec();
-        for &v in &self.free {
+        for &v in &*self.free {
             fixed[v as usize] = 0.0;
         }
         let image = product(laplacian, &fixed);
-        let offset = match self.energy {
+        let offset = match self.energy() {
             Energy::Biharmonic => image,
             Energy::Harmonic => self.free.iter().map(|&v| image[v as usize]).collect(),
         };
-        Load { field: Vec::new(), offset }
+        RightHandSide { field: Vec::new(), offset }
     }
+}
+
+/// The diagonal of W of the biharmonic energy, for all vertices: the inverse lumped masses for the finite-element operator.
+fn weights(operators: &Operators) -> Result<Option<Vec<f64>>> {
+    if operators.options.operator == Operator::Paper {
+        return Ok(None);
+    }
+    let areas = lumped_mass_diagonal(&operators.mesh, MassScale::Raw)?;
+    // Rows without a usable area belong to vertices that are not active.
+    let inverse = |area: &f64| Some(area.recip()).filter(|x| x.is_finite()).unwrap_or(0.0);
+    Ok(Some(areas.iter().map(inverse).collect()))
+}
+
+fn problem<'a>(matrix: &'a CscMatrix<f64>, equations: &'a Equations) -> Problem<'a> {
+    let form = match equations {
+        Equations::Harmonic => Form::Symmetric,
+        Equations::HarmonicSquared => Form::Normal { weights: None, symmetric_part: None },
+        Equations::Biharmonic { weights, symmetric_part } => {
+            let part = symmetric_part.as_ref();
+            let symmetric_part = part.map(|(matrix, weights)| SymmetricPart { matrix, weights: weights.as_deref() });
+            Form::Normal { weights: weights.as_deref(), symmetric_part }
+        }
+    };
+    Problem { matrix, form }
 }

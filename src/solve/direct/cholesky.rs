@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::multifrontal::{Workspace, reserve, reserve_fronts, storage};
+use super::front::Stopped;
+use super::multifrontal::{ScaledMatrix, Workspace, factorization_ticks, reserve, reserve_fronts, storage};
 use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::{FactorSize, Symbolic};
 use super::triangular::{solve_block, solve_one};
-use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
 use crate::solve::matrix::ADDRESS_SPACE;
 use crate::solve::ordering::{Permutation, nested_dissection};
+use crate::support::memory;
+use crate::{Phase, Watch};
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
 #[derive(Debug, Clone)]
@@ -29,11 +31,16 @@ impl CholeskyAnalysis {
     /// Orders the unknowns by [`nested_dissection`] and analyses the pattern of a symmetric matrix, both triangles stored.
     ///
     /// # Errors
-    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
+    /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`; `Cancelled`; `OutOfMemory`.
     pub fn new(pattern: SparsityPattern, watch: &Watch<'_>) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
+        let mut plan = watch.plan(&[(Phase::Analysis, ORDERING_SHARE), (Phase::Analysis, 1.0 - ORDERING_SHARE)]);
+        plan.begin(ordering_ticks(&pattern))?;
         let permutation = Permutation::from_valid(nested_dissection(&pattern, watch)?);
-        Ok(Self::analyze(pattern, &permutation))
+        plan.begin(symbolic_ticks(&pattern))?;
+        let analysis = Self::analyze(pattern, &permutation, watch)?;
+        plan.finish()?;
+        Ok(analysis)
     }
 
     /// As [`CholeskyAnalysis::new`], with an ordering of the caller's. The order of elimination is an equivalent one, with
@@ -44,19 +51,23 @@ impl CholeskyAnalysis {
     pub fn with_permutation(
         pattern: SparsityPattern,
         permutation: &Permutation,
-        _watch: &Watch<'_>,
+        watch: &Watch<'_>,
     ) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
         let (expected, actual) = (pattern.major_dim(), permutation.new_to_old().len());
         if expected != actual {
             return Err(SolveError::DimensionMismatch { expected, actual });
         }
-        Ok(Self::analyze(pattern, permutation))
+        let mut plan = watch.plan(&[(Phase::Analysis, 1.0)]);
+        plan.begin(symbolic_ticks(&pattern))?;
+        let analysis = Self::analyze(pattern, permutation, watch)?;
+        plan.finish()?;
+        Ok(analysis)
     }
 
-    fn analyze(pattern: SparsityPattern, permutation: &Permutation) -> Self {
-        let symbolic = Symbolic::new(&pattern, permutation);
-        Self { shared: Arc::new(Analysis { pattern, symbolic }) }
+    fn analyze(pattern: SparsityPattern, permutation: &Permutation, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        let symbolic = Symbolic::new(&pattern, permutation, watch)?;
+        Ok(Self { shared: Arc::new(Analysis { pattern, symbolic }) })
     }
 
     /// Number of unknowns.
@@ -91,12 +102,12 @@ impl CholeskyAnalysis {
     /// one triangle is read: that the values are symmetric is for the caller to know.
     ///
     /// # Errors
-    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, and `OutOfMemory` with the number of
-    /// bytes, before anything is computed.
-    pub fn factor<T: Scalar>(&self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, `Cancelled`, and `OutOfMemory` with the
+    /// number of bytes, before anything is computed.
+    pub fn factor<T: Scalar>(&self, values: &[T::Wide], watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
         let mut factor = self.allocate::<T>().ok_or_else(|| SolveError::OutOfMemory { bytes: self.memory::<T>() })?;
-        factor.compute(values)?;
+        factor.compute(values, watch)?;
         Ok(factor)
     }
 
@@ -112,7 +123,7 @@ impl CholeskyAnalysis {
         let fronts = reserve_fronts(symbolic).ok()?;
         // Vectors that will be needed beside the factor must find room too.
         drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).ok()?);
-        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, failed: None })
+        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, state: State::Stopped })
     }
 
     fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
@@ -127,6 +138,22 @@ impl CholeskyAnalysis {
     }
 }
 
+/// The part of an analysis that finding the order takes.
+const ORDERING_SHARE: f64 = 0.85;
+/// A value that is put in the order of elimination, and its solution back.
+const TICKS_PER_UNKNOWN: u64 = 10;
+
+/// What [`nested_dissection`] is expected to take: all entries are looked at on each level of dissection.
+fn ordering_ticks(pattern: &SparsityPattern) -> u64 {
+    let unknowns = pattern.major_dim() as u64;
+    (20 * unknowns + 5 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
+}
+
+/// What the symbolic analysis is expected to take.
+fn symbolic_ticks(pattern: &SparsityPattern) -> u64 {
+    100 * pattern.major_dim() as u64 + 10 * pattern.nnz() as u64
+}
+
 /// Bytes per unknown that must be left beside a factor, for a few dozen vectors.
 const HEADROOM: u64 = 512;
 
@@ -139,34 +166,63 @@ pub struct CholeskyFactor<T: Scalar> {
     workspace: Workspace<T::Block>,
     /// The matrix was multiplied by this, to be within the range of single precision.
     scale: f64,
-    /// The column at which the factorisation failed.
-    failed: Option<usize>,
+    state: State,
+}
+
+/// How far a factorisation has come.
+#[derive(Debug, Clone, Copy)]
+enum State {
+    Done,
+    /// It failed at this column.
+    Failed(usize),
+    /// It was stopped before its end.
+    Stopped,
 }
 
 impl<T: Scalar> CholeskyFactor<T> {
     /// Factorises other values on the same pattern, in the memory of this factor.
     ///
     /// # Errors
-    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column; after the last, solving gives the same
-    /// error.
-    pub fn refactor(&mut self, values: &[T::Wide], _watch: &Watch<'_>) -> Result<(), SolveError> {
+    /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, `Cancelled`; after the last two, solving
+    /// gives the same error until the next factorisation.
+    pub fn refactor(&mut self, values: &[T::Wide], watch: &Watch<'_>) -> Result<(), SolveError> {
         self.analysis.check::<T>(values)?;
-        self.compute(values)
+        self.compute(values, watch)
     }
 
-    fn compute(&mut self, values: &[T::Wide]) -> Result<(), SolveError> {
+    fn compute(&mut self, values: &[T::Wide], watch: &Watch<'_>) -> Result<(), SolveError> {
         let Analysis { pattern, symbolic } = &*self.analysis.shared;
+        self.state = State::Stopped;
+        let mut plan = watch.plan(&[(Phase::Factorization, 1.0)]);
+        plan.begin(factorization_ticks::<T::Block>(symbolic))?;
         [self.scale, _] = scales::<T>(values);
-        let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.fronts);
-        self.failed = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
-        self.failed.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
+        let matrix = ScaledMatrix { pattern, values, scale: self.scale };
+        match self.workspace.factorize(symbolic, &matrix, &mut self.fronts, watch) {
+            Ok(()) => {
+                plan.finish()?;
+                self.state = State::Done;
+            }
+            Err(Stopped::At(place)) => self.state = State::Failed(symbolic.permutation.new_to_old()[place] as usize),
+            Err(Stopped::Cancelled(cancelled)) => return Err(cancelled.into()),
+        }
+        self.check_done()
+    }
+
+    /// Fails where there is no factor, with what the factorisation failed with.
+    fn check_done(&self) -> Result<(), SolveError> {
+        match self.state {
+            State::Done => Ok(()),
+            State::Failed(column) => Err(SolveError::NotPositiveDefinite { column }),
+            State::Stopped => Err(SolveError::Cancelled {}),
+        }
     }
 
     /// Solves A X = B for right-hand sides stored one after the other.
     ///
     /// # Errors
-    /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`.
-    pub fn solve(&self, right_hand_sides: &[T::Wide], _watch: &Watch<'_>) -> Result<Vec<T::Wide>, SolveError> {
+    /// `DimensionMismatch` where the length is no multiple of the number of unknowns; `NonFiniteEntry`; `Cancelled`, and
+    /// `OutOfMemory`.
+    pub fn solve(&self, right_hand_sides: &[T::Wide], watch: &Watch<'_>) -> Result<Vec<T::Wide>, SolveError> {
         let n = self.analysis.unknowns();
         if right_hand_sides.is_empty() && n == 0 {
             return Ok(Vec::new());
@@ -177,37 +233,39 @@ impl<T: Scalar> CholeskyFactor<T> {
         if let Some(place) = right_hand_sides.iter().position(|&value| !T::is_finite(value)) {
             return Err(SolveError::NonFiniteEntry { row: place % n });
         }
-        if let Some(column) = self.failed {
-            return Err(SolveError::NotPositiveDefinite { column });
-        }
+        self.check_done()?;
+        // The solutions, one block of right-hand sides in the order of elimination, and sums for a front's columns.
+        let bytes = size_of_val(right_hand_sides) + 2 * size_of::<T::Block>() * n.min(right_hand_sides.len());
+        memory::ensure(bytes as u64)?;
         let mut solutions = vec![T::Wide::default(); right_hand_sides.len()];
         let block = n * T::Block::LANES;
         for (b, x) in right_hand_sides.chunks(block).zip(solutions.chunks_mut(block)) {
             // A block costs as much as a few single solves, however many of its lanes are used.
             if b.len() / n <= T::Block::LANES / 4 {
                 for (b, x) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
-                    self.solve_one(b, x);
+                    self.solve_one(b, x, watch)?;
                 }
             } else {
-                self.solve_block(b, x);
+                self.solve_block(b, x, watch)?;
             }
         }
         Ok(solutions)
     }
 
-    fn solve_one(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+    fn solve_one(&self, b: &[T::Wide], x: &mut [T::Wide], watch: &Watch<'_>) -> Result<(), Cancelled> {
         let symbolic = &self.analysis.shared.symbolic;
         let new_to_old = symbolic.permutation.new_to_old();
         let [shrink, grow] = scales::<T>(b);
         let mut permuted: Vec<T> =
             new_to_old.iter().map(|&old| T::narrow(T::scaled(b[old as usize], shrink))).collect();
-        solve_one(symbolic, &self.fronts, &mut permuted);
+        solve_one(symbolic, &self.fronts, &mut permuted, watch)?;
         for (value, &old) in permuted.iter().zip(new_to_old) {
             x[old as usize] = T::scaled(value.wide(), grow * self.scale);
         }
+        watch.tick(TICKS_PER_UNKNOWN * b.len() as u64)
     }
 
-    fn solve_block(&self, b: &[T::Wide], x: &mut [T::Wide]) {
+    fn solve_block(&self, b: &[T::Wide], x: &mut [T::Wide], watch: &Watch<'_>) -> Result<(), Cancelled> {
         let symbolic = &self.analysis.shared.symbolic;
         let new_to_old = symbolic.permutation.new_to_old();
         let n = new_to_old.len();
@@ -218,13 +276,14 @@ impl<T: Scalar> CholeskyFactor<T> {
                 block.set_lane(lane, T::narrow(T::scaled(b[old as usize], shrink)));
             }
         }
-        solve_block(symbolic, &self.fronts, &mut permuted);
+        solve_block(symbolic, &self.fronts, &mut permuted, watch)?;
         for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
             let [_, grow] = scales::<T>(b);
             for (block, &old) in permuted.iter().zip(new_to_old) {
                 x[old as usize] = T::scaled(block.lane(lane).wide(), grow * self.scale);
             }
         }
+        watch.tick(TICKS_PER_UNKNOWN * b.len() as u64)
     }
 
     /// The analysis this factor was made with.

@@ -11,7 +11,11 @@
 //! The first two stay as part of the factor, with the reciprocals of the pivots on the diagonal. Rows that fill the last
 //! tile of a part up are zero.
 
+use core::ops::Range;
+
 use super::scalar::{LaneBlock, Scalar};
+use crate::Watch;
+use crate::error::Cancelled;
 
 /// Lane blocks in the tiles before tile `tile` of a triangle.
 #[inline]
@@ -50,6 +54,53 @@ impl<B: LaneBlock> Clone for Diagonal<'_, B> {
 
 impl<B: LaneBlock> Copy for Diagonal<'_, B> {}
 
+/// What ends an elimination early.
+pub(super) enum Stopped {
+    /// The pivot of this column fails.
+    At(usize),
+    /// Whoever watches has asked for it.
+    Cancelled(Cancelled),
+}
+
+impl From<Cancelled> for Stopped {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Cancelled(cancelled)
+    }
+}
+
+/// Products of a lane block with a number that are subtracted from another, before the watch is told: well below a millisecond.
+const PATIENCE: u64 = 1 << 17;
+
+/// Nanoseconds in WebAssembly for so many such products. Complex blocks are twice as long, and take four real products.
+const fn ticks<B>(products: u64) -> u64 {
+    products * (size_of::<B>() * size_of::<B>() / 512) as u64 * 4 / 5
+}
+
+/// The ticks of the elimination of a front with so many columns and rows below.
+pub(super) fn elimination_ticks<B: LaneBlock>(columns: usize, rows: usize) -> u64 {
+    let (c, r) = (columns as u64, rows as u64);
+    ticks::<B>((c * c * c / 3 + c * c * r + c * r * r) / (2 * B::LANES as u64))
+}
+
+/// Tells the watch of the products of one front from time to time.
+struct Pace<'w, 'a> {
+    watch: &'w Watch<'a>,
+    products: u64,
+}
+
+impl Pace<'_, '_> {
+    #[inline]
+    fn count<B>(&mut self, products: usize) -> Result<(), Cancelled> {
+        self.products += products as u64;
+        if self.products < PATIENCE { Ok(()) } else { self.tell::<B>() }
+    }
+
+    #[inline(never)]
+    fn tell<B>(&mut self) -> Result<(), Cancelled> {
+        self.watch.tick(ticks::<B>(core::mem::take(&mut self.products)))
+    }
+}
+
 /// One front.
 pub(super) struct Front<'a, B: LaneBlock> {
     pub(super) columns: usize,
@@ -59,26 +110,35 @@ pub(super) struct Front<'a, B: LaneBlock> {
 }
 
 impl<B: LaneBlock> Front<'_, B> {
-    /// Eliminates the columns and brings the update up to date. The error is the first column whose pivot fails.
-    pub(super) fn eliminate(&mut self, diagonal: Diagonal<'_, B>) -> Result<(), usize> {
+    /// Eliminates the columns and brings the update up to date. Ends early at the first column whose pivot fails.
+    pub(super) fn eliminate(&mut self, diagonal: Diagonal<'_, B>, watch: &Watch<'_>) -> Result<(), Stopped> {
         let columns = self.columns;
+        let pace = &mut Pace { watch, products: 0 };
         let (pivots, below) = self.factor.split_at_mut(triangle::<B>(columns.div_ceil(B::LANES)));
         for start in (0..columns).step_by(PANEL) {
             let end = (start + PANEL).min(columns);
-            update_panel(pivots, below, columns, start, end);
-            eliminate_panel(pivots, columns, start, end, diagonal)?;
+            update_panel(pivots, below, columns, start..end, pace)?;
+            eliminate_panel(pivots, columns, start..end, diagonal, pace)?;
             for row in below.chunks_exact_mut(columns) {
                 solve_tile(pivots, row, start, end);
+                pace.count::<B>((end - start) * (end - start) / 2)?;
             }
         }
-        update_rest(self.update, below, columns);
-        Ok(())
+        update_rest(self.update, below, columns, pace)?;
+        Ok(pace.tell::<B>()?)
     }
 }
 
 /// Subtracts the products of the columns before `start` from the columns `start..end`, in all rows from `start` on.
 #[inline(never)]
-fn update_panel<B: LaneBlock>(pivots: &mut [B], below: &mut [B], columns: usize, start: usize, end: usize) {
+fn update_panel<B: LaneBlock>(
+    pivots: &mut [B],
+    below: &mut [B],
+    columns: usize,
+    panel: Range<usize>,
+    pace: &mut Pace<'_, '_>,
+) -> Result<(), Cancelled> {
+    let Range { start, end } = panel;
     let tiles = start / B::LANES..end.div_ceil(B::LANES);
     for depth in (0..start).step_by(depth::<B>()) {
         let depth = depth..(depth + self::depth::<B>()).min(start);
@@ -90,14 +150,17 @@ fn update_panel<B: LaneBlock>(pivots: &mut [B], below: &mut [B], columns: usize,
                 let b = if j == i { a } else { &above[triangle::<B>(j)..][depth.clone()] };
                 B::update(&mut open[j * B::LANES - start..][..B::LANES], a, b);
             }
+            pace.count::<B>(tiles.len() * B::LANES * depth.len())?;
         }
         for row in below.chunks_exact_mut(columns) {
             let (done, open) = row.split_at_mut(start);
             for (j, result) in tiles.clone().zip(open[..end - start].chunks_mut(B::LANES)) {
                 B::update(result, &done[depth.clone()], &pivots[triangle::<B>(j)..][depth.clone()]);
             }
+            pace.count::<B>(tiles.len() * B::LANES * depth.len())?;
         }
     }
+    Ok(())
 }
 
 /// Eliminates the columns `start..end` of the pivot rows.
@@ -105,10 +168,11 @@ fn update_panel<B: LaneBlock>(pivots: &mut [B], below: &mut [B], columns: usize,
 fn eliminate_panel<B: LaneBlock>(
     pivots: &mut [B],
     columns: usize,
-    start: usize,
-    end: usize,
+    panel: Range<usize>,
     diagonal: Diagonal<'_, B>,
-) -> Result<(), usize> {
+    pace: &mut Pace<'_, '_>,
+) -> Result<(), Stopped> {
+    let Range { start, end } = panel;
     for i in start / B::LANES..columns.div_ceil(B::LANES) {
         let (above, row) = pivots.split_at_mut(triangle::<B>(i));
         let own = i * B::LANES;
@@ -119,8 +183,9 @@ fn eliminate_panel<B: LaneBlock>(
             B::update(tile, &done[start..], &done[start..]);
             let last = columns.min(own + B::LANES);
             eliminate_tile(tile, Diagonal { entries: &diagonal.entries[own..last], ..diagonal })
-                .map_err(|column| own + column)?;
+                .map_err(|column| Stopped::At(own + column))?;
         }
+        pace.count::<B>((end - start) * (end - start) / 2)?;
     }
     Ok(())
 }
@@ -169,7 +234,12 @@ fn eliminate_tile<B: LaneBlock>(tile: &mut [B], diagonal: Diagonal<'_, B>) -> Re
 
 /// Subtracts the products of all pivot columns from the update.
 #[inline(never)]
-fn update_rest<B: LaneBlock>(update: &mut [B], below: &[B], columns: usize) {
+fn update_rest<B: LaneBlock>(
+    update: &mut [B],
+    below: &[B],
+    columns: usize,
+    pace: &mut Pace<'_, '_>,
+) -> Result<(), Cancelled> {
     let rows: usize = below.len() / columns.max(1);
     let breadth = BREADTH / B::LANES;
     for depth in (0..columns).step_by(depth::<B>()) {
@@ -181,7 +251,9 @@ fn update_rest<B: LaneBlock>(update: &mut [B], below: &[B], columns: usize) {
                 for (j, result) in (first..(first + breadth).min(i + 1)).zip(results.skip(first)) {
                     B::update(result, a, &below[j * columns..][depth.clone()]);
                 }
+                pace.count::<B>((breadth.min(i + 1 - first)) * B::LANES * depth.len())?;
             }
         }
     }
+    Ok(())
 }

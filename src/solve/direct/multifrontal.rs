@@ -3,10 +3,12 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::front::{Diagonal, Front, sizes, triangle};
+use super::front::{Diagonal, Front, Stopped, elimination_ticks, sizes, triangle};
 use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::Symbolic;
+use crate::Watch;
 use crate::error::SolveError;
+use crate::support::memory;
 
 /// Lane blocks of the whole factor, and of the stack of updates at its fullest.
 pub(super) fn storage<B: LaneBlock>(symbolic: &Symbolic) -> (u64, u64) {
@@ -39,6 +41,29 @@ const NEGLIGIBLE: f64 = 256.0;
 /// precision without a sure way to tell singular matrices: there a solution has to be checked, as refinement does.
 const MOST_NEGLIGIBLE: f64 = 1e-5;
 
+/// A matrix, multiplied by a number.
+pub(super) struct ScaledMatrix<'a, B: LaneBlock> {
+    pub(super) pattern: &'a SparsityPattern,
+    pub(super) values: &'a [<B::Element as Scalar>::Wide],
+    pub(super) scale: f64,
+}
+
+/// The ticks of setting up a front whose part of the factor and whose update take so many lane blocks, and of adding its
+/// update to its parent.
+fn assembly_ticks<B: LaneBlock>(factor: u64, update: u64) -> u64 {
+    500 + 2 * (factor + update) + 3 * B::LANES as u64 * update
+}
+
+/// The ticks of the whole factorisation.
+pub(super) fn factorization_ticks<B: LaneBlock>(symbolic: &Symbolic) -> u64 {
+    let of_front = |s| {
+        let (columns, rows) = (symbolic.columns(s).len(), symbolic.rows_of(s).len());
+        let (factor, update) = sizes::<B>(columns, rows);
+        assembly_ticks::<B>(factor, update) + elimination_ticks::<B>(columns, rows)
+    };
+    (0..symbolic.fronts()).map(of_front).sum()
+}
+
 /// What a factorisation needs besides the factor, kept for the next one.
 #[derive(Debug, Clone)]
 pub(super) struct Workspace<B: LaneBlock> {
@@ -66,31 +91,35 @@ pub(super) fn reserve<T>(blocks: u64) -> Result<Vec<T>, SolveError> {
 /// where the whole factor would not.
 pub(super) fn reserve_fronts<B: LaneBlock>(symbolic: &Symbolic) -> Result<Vec<Vec<B>>, SolveError> {
     let size = |s| sizes::<B>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
-    (0..symbolic.fronts()).map(|s| reserve(size(s))).collect()
+    let mut fronts = memory::with_room(symbolic.fronts())?;
+    for s in 0..symbolic.fronts() {
+        fronts.push(reserve(size(s))?);
+    }
+    Ok(fronts)
 }
 
 impl<B: LaneBlock> Workspace<B> {
     pub(super) fn new(symbolic: &Symbolic, stack: u64) -> Result<Self, SolveError> {
+        let most = |length: &dyn Fn(usize) -> usize| (0..symbolic.fronts()).map(length).max().unwrap_or(0);
         let mut workspace = Self {
             stack: reserve(stack)?,
-            places: vec![0; symbolic.permutation.new_to_old().len()],
-            child_places: Vec::new(),
-            diagonal: Vec::new(),
+            places: memory::filled(0, symbolic.permutation.new_to_old().len())?,
+            child_places: memory::with_room(most(&|s| symbolic.rows_of(s).len()))?,
+            diagonal: memory::with_room(most(&|s| symbolic.columns(s).len()))?,
         };
         workspace.stack.resize(stack as usize, B::ZERO);
         Ok(workspace)
     }
 
-    /// Computes the factor of the matrix with these values, times `scale`, into `factor`, a vector with the capacity for it
-    /// for every front. The error is the place of a column whose pivot failed.
+    /// Computes the factor of the matrix into `factor`, a vector with the capacity for it for every front. Ends early at the
+    /// place of a column whose pivot fails.
     pub(super) fn factorize(
         &mut self,
         symbolic: &Symbolic,
-        pattern: &SparsityPattern,
-        values: &[<B::Element as Scalar>::Wide],
-        scale: f64,
+        matrix: &ScaledMatrix<'_, B>,
         factor: &mut [Vec<B>],
-    ) -> Result<(), usize> {
+        watch: &Watch<'_>,
+    ) -> Result<(), Stopped> {
         let negligible = (NEGLIGIBLE * B::Element::EPSILON * (self.places.len() as f64).sqrt()).min(MOST_NEGLIGIBLE);
         // Fronts whose updates wait at either end, and where the free part of the stack begins and ends.
         let mut waiting: [Vec<u32>; 2] = [Vec::new(), Vec::new()];
@@ -115,7 +144,7 @@ impl<B: LaneBlock> Workspace<B> {
             let mut front = Front { columns: columns.len(), factor, update };
             self.diagonal.clear();
             for column in columns.clone() {
-                let entry = assemble_column(&mut front, symbolic, pattern, (values, scale), column, &self.places);
+                let entry = assemble_column(&mut front, symbolic, matrix, column, &self.places);
                 self.diagonal.push(entry);
             }
             let [own, others] = sides(&mut waiting, odd);
@@ -136,7 +165,11 @@ impl<B: LaneBlock> Workspace<B> {
                 released += size;
             }
             let diagonal = Diagonal { entries: &self.diagonal, negligible };
-            front.eliminate(diagonal).map_err(|column| columns.start + column)?;
+            watch.tick(assembly_ticks::<B>(factor_size as u64, update_size as u64))?;
+            front.eliminate(diagonal, watch).map_err(|stopped| match stopped {
+                Stopped::At(column) => Stopped::At(columns.start + column),
+                cancelled @ Stopped::Cancelled(_) => cancelled,
+            })?;
             own.push(s as u32);
             if odd {
                 free[0] -= released;
@@ -181,8 +214,7 @@ fn split_stack<B>(stack: &mut [B], free: [usize; 2], size: usize, odd: bool) -> 
 fn assemble_column<B: LaneBlock>(
     front: &mut Front<'_, B>,
     symbolic: &Symbolic,
-    pattern: &SparsityPattern,
-    (values, scale): (&[<B::Element as Scalar>::Wide], f64),
+    &ScaledMatrix { pattern, values, scale }: &ScaledMatrix<'_, B>,
     column: usize,
     places: &[u32],
 ) -> B::Element {

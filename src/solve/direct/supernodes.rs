@@ -1,6 +1,12 @@
 //! Supernodes: columns with nearly the same rows, eliminated together in one dense front.
 
 use super::tree::{EliminationTree, Later, NONE};
+use crate::Watch;
+use crate::error::SolveError;
+use crate::support::memory;
+
+/// A row of a front that is gathered from the matrix or a child, and sorted.
+const TICKS_PER_ROW: u64 = 25;
 
 /// The fronts in the order of their elimination, and the columns renumbered so that each front's are together.
 pub(super) struct Supernodes {
@@ -10,6 +16,8 @@ pub(super) struct Supernodes {
     pub(super) starts: Vec<u32>,
     /// Parent fronts; [`NONE`] for roots.
     pub(super) parents: Vec<u32>,
+    /// Rows below the columns of all fronts.
+    row_count: usize,
 }
 
 /// A set of columns while sets are merged.
@@ -36,14 +44,20 @@ impl Supernodes {
     }
 
     /// Where each front's rows below its columns start, and the rows: ascending places.
-    pub(super) fn rows(&self, later: &Later) -> (Vec<usize>, Vec<u32>) {
+    pub(super) fn rows(&self, later: &Later, watch: &Watch<'_>) -> Result<(Vec<usize>, Vec<u32>), SolveError> {
         let n = self.order.len();
+        let fronts = self.parents.len();
+        // The rows before and after sorting, and the fronts of each; what is kept for every unknown, and for every front.
+        memory::ensure(
+            (12 * self.row_count + (8 + size_of::<usize>()) * n + (8 + 2 * size_of::<usize>()) * fronts) as u64,
+        )?;
         let mut place_of = vec![0; n];
         for (place, &column) in self.order.iter().enumerate() {
             place_of[column as usize] = place as u32;
         }
-        let fronts = self.parents.len();
-        let (mut row_starts, mut unsorted) = (vec![0], Vec::<u32>::new());
+        let (mut row_starts, mut unsorted) =
+            (Vec::with_capacity(fronts + 1), Vec::<u32>::with_capacity(self.row_count));
+        row_starts.push(0);
         let (mut first_child, mut next_sibling) = (vec![NONE; fronts], vec![NONE; fronts]);
         let mut marks = vec![NONE; n];
         for s in 0..fronts {
@@ -72,10 +86,12 @@ impl Supernodes {
                 next_sibling[s] = first_child[parent];
                 first_child[parent] = s as u32;
             }
+            watch.tick(TICKS_PER_ROW * (4 + unsorted.len() - row_starts[s]) as u64)?;
             row_starts.push(unsorted.len());
         }
+        drop((place_of, marks, first_child, next_sibling));
         let rows = sort_rows(n, &row_starts, &unsorted);
-        (row_starts, rows)
+        Ok((row_starts, rows))
     }
 }
 
@@ -215,7 +231,7 @@ fn arrange(groups: &[Group], group_starts: &[u32], postorder: &[u32]) -> Superno
     let order = children.in_order_of_least_stack(groups);
 
     let mut supernodes =
-        Supernodes { order: Vec::with_capacity(postorder.len()), starts: vec![0], parents: Vec::new() };
+        Supernodes { order: Vec::with_capacity(postorder.len()), starts: vec![0], parents: Vec::new(), row_count: 0 };
     let mut front_of = vec![NONE; count];
     let mut groups_in_order = Vec::new();
     let mut visit = |g: usize, supernodes: &mut Supernodes| {
@@ -224,6 +240,7 @@ fn arrange(groups: &[Group], group_starts: &[u32], postorder: &[u32]) -> Superno
             supernodes.order.extend_from_slice(&postorder[columns]);
         }
         supernodes.starts.push(supernodes.order.len() as u32);
+        supernodes.row_count += groups[g].rows as usize;
         front_of[g] = groups_in_order.len() as u32;
         groups_in_order.push(g);
     };

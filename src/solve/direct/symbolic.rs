@@ -4,7 +4,13 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::supernodes::Supernodes;
 use super::tree::{EliminationTree, NONE};
+use crate::Watch;
+use crate::error::SolveError;
 use crate::solve::ordering::Permutation;
+use crate::support::memory;
+
+/// What is kept for every unknown while the pattern is analysed.
+const BYTES_PER_UNKNOWN: usize = 120;
 
 /// The size of a Cholesky factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,13 +48,19 @@ pub(super) struct Symbolic {
 }
 
 impl Symbolic {
-    pub(super) fn new(pattern: &SparsityPattern, permutation: &Permutation) -> Self {
-        let (tree, later) = EliminationTree::new(pattern, permutation);
-        let counts = tree.counts(&later);
+    pub(super) fn new(
+        pattern: &SparsityPattern,
+        permutation: &Permutation,
+        watch: &Watch<'_>,
+    ) -> Result<Self, SolveError> {
+        // One triangle of the pattern in the new order.
+        memory::ensure((2 * pattern.nnz() + BYTES_PER_UNKNOWN * pattern.major_dim()) as u64)?;
+        let (tree, later) = EliminationTree::new(pattern, permutation, watch)?;
+        let counts = tree.counts(&later, watch)?;
         let size = FactorSize::of(&counts);
         let supernodes = Supernodes::new(&tree, &counts);
         drop(tree);
-        let (row_starts, rows) = supernodes.rows(&later);
+        let (row_starts, rows) = supernodes.rows(&later, watch)?;
         let new_to_old: Vec<u32> = supernodes.order.iter().map(|&v| permutation.new_to_old()[v as usize]).collect();
         let fronts = supernodes.parents.len();
         let (mut children, mut odd) = (vec![0; fronts], vec![false; fronts]);
@@ -58,7 +70,7 @@ impl Symbolic {
                 odd[s] = !odd[parent as usize];
             }
         }
-        Self {
+        Ok(Self {
             permutation: Permutation::from_valid(new_to_old),
             starts: supernodes.starts,
             row_starts,
@@ -66,7 +78,7 @@ impl Symbolic {
             children,
             odd,
             size,
-        }
+        })
     }
 
     /// Number of fronts.

@@ -2,9 +2,14 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
+use crate::Watch;
+use crate::error::Cancelled;
 use crate::solve::ordering::Permutation;
 
 pub(super) const NONE: u32 = u32::MAX;
+
+/// An entry of the matrix that is looked at.
+const TICKS_PER_ENTRY: u64 = 5;
 
 /// For every unknown, in the order of elimination, its neighbours that come later.
 pub(super) struct Later {
@@ -33,7 +38,11 @@ pub(super) struct EliminationTree {
 
 impl EliminationTree {
     /// The tree, and the graph that it and everything after is made from, in one pass over the pattern.
-    pub(super) fn new(pattern: &SparsityPattern, permutation: &Permutation) -> (Self, Later) {
+    pub(super) fn new(
+        pattern: &SparsityPattern,
+        permutation: &Permutation,
+        watch: &Watch<'_>,
+    ) -> Result<(Self, Later), Cancelled> {
         let n = pattern.major_dim();
         let old_to_new = permutation.old_to_new();
         let mut offsets = Vec::with_capacity(n + 1);
@@ -60,9 +69,10 @@ impl EliminationTree {
                 }
             }
             offsets.push(neighbours.len() as u32);
+            watch.tick(TICKS_PER_ENTRY * (2 + pattern.lane(old as usize).len() as u64))?;
         }
         let postorder = postorder(&parents);
-        (Self { parents, postorder }, Later { offsets, neighbours })
+        Ok((Self { parents, postorder }, Later { offsets, neighbours }))
     }
 
     /// How many entries each column of the factor has, the diagonal included, in time almost linear in the entries of the
@@ -70,7 +80,7 @@ impl EliminationTree {
     ///
     /// The rows of the factor are subtrees of the elimination tree; a column's count is the number of row subtrees that
     /// contain it. Each of them is added where its leaves are and taken away where paths from two leaves meet.
-    pub(super) fn counts(&self, later: &Later) -> Vec<u32> {
+    pub(super) fn counts(&self, later: &Later, watch: &Watch<'_>) -> Result<Vec<u32>, Cancelled> {
         let n = later.len();
         // Positions in the postorder of each unknown's first descendant; sums that may pass below zero wrap around.
         let mut first = vec![NONE; n];
@@ -107,6 +117,7 @@ impl EliminationTree {
             if parent != NONE {
                 sets[v as usize] = parent;
             }
+            watch.tick(TICKS_PER_ENTRY * (8 + later.of(v as usize).len() as u64))?;
         }
         for v in 0..n {
             if self.parents[v] != NONE {
@@ -114,7 +125,7 @@ impl EliminationTree {
                 counts[parent] = counts[parent].wrapping_add(counts[v]);
             }
         }
-        counts
+        Ok(counts)
     }
 }
 

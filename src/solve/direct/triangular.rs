@@ -5,6 +5,8 @@
 use super::front::triangle;
 use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::Symbolic;
+use crate::Watch;
+use crate::error::Cancelled;
 
 /// One front's part of the factor.
 struct Part<'a, B: LaneBlock> {
@@ -23,16 +25,29 @@ fn part<'a, B: LaneBlock>(symbolic: &'a Symbolic, factor: &'a [Vec<B>], s: usize
     Part { pivots, below, columns, rows }
 }
 
+/// Nanoseconds in WebAssembly for one pass over so many lane blocks, and for a front.
+fn ticks<B>(blocks: usize) -> u64 {
+    50 + blocks as u64 * size_of::<B>() as u64 / 16
+}
+
 /// Overwrites a right-hand side, in the order of elimination, with the solution.
 #[inline(never)]
-pub(super) fn solve_one<B: LaneBlock>(symbolic: &Symbolic, factor: &[Vec<B>], x: &mut [B::Element]) {
+pub(super) fn solve_one<B: LaneBlock>(
+    symbolic: &Symbolic,
+    factor: &[Vec<B>],
+    x: &mut [B::Element],
+    watch: &Watch<'_>,
+) -> Result<(), Cancelled> {
     for s in 0..factor.len() {
         forward(&part(symbolic, factor, s), x);
+        watch.tick(ticks::<B>(factor[s].len()))?;
     }
     let mut sums = Vec::new();
     for s in (0..factor.len()).rev() {
         backward(&part(symbolic, factor, s), x, &mut sums);
+        watch.tick(ticks::<B>(factor[s].len()))?;
     }
+    Ok(())
 }
 
 #[inline(never)]
@@ -109,7 +124,12 @@ fn add_products<B: LaneBlock>(sums: &mut [B], row: &[B], values: &B) {
 
 /// Overwrites as many right-hand sides as a block has lanes, a block for each unknown, with their solutions.
 #[inline(never)]
-pub(super) fn solve_block<B: LaneBlock>(symbolic: &Symbolic, factor: &[Vec<B>], x: &mut [B]) {
+pub(super) fn solve_block<B: LaneBlock>(
+    symbolic: &Symbolic,
+    factor: &[Vec<B>],
+    x: &mut [B],
+    watch: &Watch<'_>,
+) -> Result<(), Cancelled> {
     let mut gathered: Vec<B> = vec![B::ZERO; B::LANES];
     for s in 0..factor.len() {
         let part = part(symbolic, factor, s);
@@ -130,6 +150,7 @@ pub(super) fn solve_block<B: LaneBlock>(symbolic: &Symbolic, factor: &[Vec<B>], 
                 later[id as usize - part.columns.end] = *block;
             }
         }
+        watch.tick(B::LANES as u64 * ticks::<B>(factor[s].len()))?;
     }
     for s in (0..factor.len()).rev() {
         let part = part(symbolic, factor, s);
@@ -148,7 +169,9 @@ pub(super) fn solve_block<B: LaneBlock>(symbolic: &Symbolic, factor: &[Vec<B>], 
             solve_transposed_tile(open, &row[tile..]);
             subtract_transposed(before, &row[..tile], open);
         }
+        watch.tick(B::LANES as u64 * ticks::<B>(factor[s].len()))?;
     }
+    Ok(())
 }
 
 /// Forward within a diagonal tile.

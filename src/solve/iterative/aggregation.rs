@@ -1,6 +1,8 @@
 //! Aggregates of strongly coupled unknowns, and the prolongation from them \[Vanek96\].
 
 use super::rows::{Rows, SymmetricRows};
+use crate::Watch;
+use crate::error::Cancelled;
 
 /// Unknowns i and j are strongly coupled where −a_ij ≥ θ √(a_ii a_jj) \[Vanek96\]. Positive entries, those of
 /// obtuse triangles, push errors apart and so never bind.
@@ -11,16 +13,21 @@ const DOMINATED: f64 = 0.2;
 /// ω of the step that smooths the prolongation: 4/3 over the largest eigenvalue of the filtered D⁻¹A \[Vanek96\], which is at
 /// most 2, because its rows are the identity's minus positive weights with a sum of at most 1.
 const RELAXATION: f64 = 2.0 / 3.0;
+/// An entry of the matrix, while unknowns are gathered in aggregates and while the prolongation is smoothed.
+const TICKS_PER_ENTRY: u64 = 10;
 /// In no aggregate yet.
 const FREE: u32 = u32::MAX;
 /// Needs none.
 const LEFT_OUT: u32 = u32::MAX - 1;
 
 /// The prolongation to the unknowns from their aggregates.
-pub(super) fn prolongation(matrix: &SymmetricRows) -> Rows {
+pub(super) fn prolongation(matrix: &SymmetricRows, watch: &Watch<'_>) -> Result<Rows, Cancelled> {
     let strength: Vec<f64> = (0..matrix.size()).map(|i| matrix.diagonal(i).sqrt() * STRONG.sqrt()).collect();
     let (aggregates, count) = aggregate(matrix, &strength);
-    smoothed(matrix, &strength, &aggregates, count)
+    watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
+    let result = smoothed(matrix, &strength, &aggregates, count);
+    watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
+    Ok(result)
 }
 
 /// The strong neighbours of an unknown with their weights −a_ij.

@@ -4,12 +4,18 @@ use super::preconditioner::Preconditioner;
 use crate::Watch;
 use crate::error::SolveError;
 use crate::solve::matrix::norm;
+use crate::support::memory;
 
 /// What counts as a lower residual.
 const PROGRESS: f64 = 0.99;
 /// Residuals may grow before they shrink, by the square root of the condition number at most, and double precision
 /// solves nothing past the square of this.
 const DIVERGED: f64 = 1e8;
+
+/// An unknown in one iteration, with a product with the matrix of an operator on a mesh and without the preconditioner.
+const TICKS_PER_UNKNOWN: u64 = 40;
+/// Vectors that are in use at once, those of a product and of a preconditioner included.
+const VECTORS: usize = 8;
 
 /// When [`conjugate_gradient`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +53,8 @@ pub struct CgInfo {
 ///
 /// # Errors
 /// `DimensionMismatch`; `NonFiniteEntry` in `b`, `x` or a product; `NotPositiveDefinite` where a curvature is not
-/// positive, with the unknown that moves most; `IndefinitePreconditioner`; what the preconditioner fails with;
+/// positive, with the unknown that moves most; `IndefinitePreconditioner`; what the preconditioner fails with; `Cancelled`;
+/// `OutOfMemory`;
 /// `NotConverged` with the relative residual reached, as soon as iterations no longer help. On an error `x` holds the last
 /// iterate.
 ///
@@ -89,6 +96,7 @@ pub fn conjugate_gradient(
         x.fill(0.0);
         return Ok(CgInfo { iterations: 0, relative_residual: 0.0 });
     }
+    memory::ensure((VECTORS * size_of_val(b)) as u64)?;
     let target = options.tolerance * size;
     let mut iterations = 0;
     let (mut residual, mut start) = true_residual(apply, b, x)?;
@@ -155,6 +163,7 @@ pub(super) fn descend(
     let (mut image, mut curvature) = (Vec::new(), 1.0);
     let (mut smallest, mut since) = (1.0_f64, 0);
     for iteration in 0..most {
+        watch.tick(TICKS_PER_UNKNOWN * x.len() as u64)?;
         let z = preconditioner.apply(residual, watch)?;
         let ratio = if iteration == 0 { 0.0 } else { -dot(&z, &image) / curvature };
         direction.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);

@@ -8,9 +8,10 @@ use super::elimination::Elimination;
 
 use super::preconditioner::Preconditioner;
 use super::rows::{Rows, SymmetricRows};
-use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
 use crate::solve::matrix::norm;
+use crate::support::memory;
+use crate::{Phase, Watch};
 
 /// This many unknowns are solved for directly, in less time than another level would take.
 const COARSEST: usize = 120;
@@ -18,6 +19,17 @@ const COARSEST: usize = 120;
 const STALLED: f64 = 0.8;
 /// Pivots below this fraction of the diagonal are rounding of zeros.
 const ROUNDING: f64 = 1e-14;
+
+/// An entry of a level's matrix or prolongation in one sweep.
+const TICKS_PER_ENTRY: u64 = 3;
+/// What the set-up takes for each entry of the matrix, and for each unknown.
+const BYTES_PER_ENTRY: usize = 90;
+const BYTES_PER_UNKNOWN: usize = 150;
+
+/// What the set-up is expected to take.
+pub(super) fn setup_ticks(matrix: &CscMatrix<f64>) -> u64 {
+    150 * matrix.nnz() as u64
+}
 
 /// One symmetric V-cycle of smoothed aggregation multigrid \[Vanek96\]: set-up, memory and application take time
 /// proportional to the entries of the matrix, and the iterations of conjugate gradients hardly grow with its size.
@@ -52,16 +64,21 @@ impl Multigrid {
     ///
     /// # Errors
     /// `DimensionMismatch` where it is not square; `NotSymmetric`, by the pattern; `NonFiniteEntry`; `NotPositiveDefinite`
-    /// where a diagonal entry, of a coarse level too, or a pivot on the coarsest is not positive; `OutOfMemory` past 2³²
-    /// entries.
+    /// where a diagonal entry, of a coarse level too, or a pivot on the coarsest is not positive; `Cancelled`; `OutOfMemory`,
+    /// also past 2³² entries.
     pub fn new(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<Self, SolveError> {
-        Self::from_rows(SymmetricRows::new(matrix)?, watch)
+        let mut plan = watch.plan(&[(Phase::Analysis, 1.0)]);
+        plan.begin(setup_ticks(matrix))?;
+        let multigrid = Self::from_rows(SymmetricRows::new(matrix, watch)?, watch)?;
+        plan.finish()?;
+        Ok(multigrid)
     }
 
-    pub(super) fn from_rows(matrix: SymmetricRows, _watch: &Watch<'_>) -> Result<Self, SolveError> {
+    pub(super) fn from_rows(matrix: SymmetricRows, watch: &Watch<'_>) -> Result<Self, SolveError> {
         let size = matrix.size();
-        let (elimination, matrix) = Elimination::new(matrix)?;
-        let (levels, coarsest) = hierarchy(matrix).map_err(|error| elimination.name_unknown(error))?;
+        memory::ensure((BYTES_PER_ENTRY * matrix.rows.values.len() + BYTES_PER_UNKNOWN * size) as u64)?;
+        let (elimination, matrix) = Elimination::new(matrix, watch)?;
+        let (levels, coarsest) = hierarchy(matrix, watch).map_err(|error| elimination.name_unknown(error))?;
         Ok(Self { elimination, size, levels, coarsest })
     }
 
@@ -107,17 +124,21 @@ impl Multigrid {
         self.levels.first().map_or_else(Vec::new, |level| level.matrix.product(x))
     }
 
-    fn cycle(&self, depth: usize, r: &[f64]) -> Vec<f64> {
-        let Some(level) = self.levels.get(depth) else { return self.coarsest.solve(r) };
-        if level.prolongation.offsets.is_empty() {
-            return self.coarsest.solve(r);
-        }
+    fn cycle(&self, depth: usize, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
+        let level = self.levels.get(depth).filter(|level| !level.prolongation.offsets.is_empty());
+        let Some(level) = level else {
+            watch.tick((r.len() * r.len()) as u64)?;
+            return Ok(self.coarsest.solve(r));
+        };
+        let sweep = TICKS_PER_ENTRY * (level.matrix.rows.values.len() + level.prolongation.values.len()) as u64;
+        watch.tick(sweep)?;
         let (mut x, coarse) = level.descend(r);
         if !coarse.is_empty() {
-            level.prolong(&self.cycle(depth + 1, &coarse), &mut x);
+            level.prolong(&self.cycle(depth + 1, &coarse, watch)?, &mut x);
         }
+        watch.tick(sweep)?;
         level.ascend(r, &mut x);
-        x
+        Ok(x)
     }
 }
 
@@ -126,10 +147,10 @@ impl Preconditioner for Multigrid {
         self.size
     }
 
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
         let mut z = r.to_vec();
         let reduced = self.elimination.forward(&mut z);
-        self.elimination.backward(&self.cycle(0, &reduced), &mut z);
+        self.elimination.backward(&self.cycle(0, &reduced, watch)?, &mut z);
         Ok(z)
     }
 }
@@ -142,8 +163,8 @@ impl Preconditioner for Reduced<'_> {
         self.0.elimination.kept.len()
     }
 
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
-        Ok(self.0.cycle(0, r))
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+        Ok(self.0.cycle(0, r, watch)?)
     }
 }
 
@@ -189,14 +210,15 @@ impl Level {
 }
 
 /// The levels from the finest on.
-fn hierarchy(mut matrix: SymmetricRows) -> Result<(Vec<Level>, DenseCholesky), SolveError> {
+fn hierarchy(mut matrix: SymmetricRows, watch: &Watch<'_>) -> Result<(Vec<Level>, DenseCholesky), SolveError> {
     let mut levels: Vec<Level> = Vec::new();
     while matrix.size() > COARSEST {
-        let prolongation = prolongation(&matrix);
+        let prolongation = prolongation(&matrix, watch)?;
         if prolongation.width as f64 > STALLED * matrix.size() as f64 {
             break;
         }
-        let coarse = galerkin(&matrix, &prolongation).map_err(|error| name_unknown(error, &levels, &prolongation))?;
+        let coarse =
+            galerkin(&matrix, &prolongation, watch).map_err(|error| name_unknown(error, &levels, &prolongation))?;
         levels.push(Level::new(core::mem::replace(&mut matrix, coarse), prolongation));
     }
     if matrix.size() > COARSEST {
@@ -214,10 +236,10 @@ fn hierarchy(mut matrix: SymmetricRows) -> Result<(Vec<Level>, DenseCholesky), S
 }
 
 /// PᵀAP, its columns sorted.
-fn galerkin(matrix: &SymmetricRows, prolongation: &Rows) -> Result<SymmetricRows, SolveError> {
-    let product = prolongation.transposed().times(&matrix.rows.times(prolongation));
+fn galerkin(matrix: &SymmetricRows, prolongation: &Rows, watch: &Watch<'_>) -> Result<SymmetricRows, SolveError> {
+    let product = prolongation.transposed(watch)?.times(&matrix.rows.times(prolongation, watch)?, watch)?;
     // Symmetric but for rounding, so transposing does no more than sort.
-    SymmetricRows::from_rows(product.transposed())
+    SymmetricRows::from_rows(product.transposed(watch)?)
 }
 
 /// Replaces a coarse unknown in an error by a fine one of its aggregate.

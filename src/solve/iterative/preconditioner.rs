@@ -4,7 +4,10 @@ use nalgebra_sparse::CscMatrix;
 
 use super::rows::SymmetricRows;
 use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
+
+/// An entry of a matrix in a sweep over its rows.
+const TICKS_PER_ENTRY: u64 = 3;
 
 /// An approximation M⁻¹ of the inverse of a symmetric positive definite matrix.
 pub trait Preconditioner {
@@ -49,7 +52,8 @@ impl Preconditioner for Jacobi {
         self.inverse.len()
     }
 
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+        watch.tick(2 * r.len() as u64)?;
         Ok(r.iter().zip(&self.inverse).map(|(r, inverse)| r * inverse).collect())
     }
 }
@@ -81,16 +85,16 @@ impl IncompleteCholesky {
     /// # Errors
     /// `DimensionMismatch` where it is not square; `NotSymmetric`, by the pattern; `NonFiniteEntry`; `NotPositiveDefinite`
     /// where a diagonal entry is not positive or no shift helps; `OutOfMemory` past 2³² entries.
-    pub fn new(matrix: &CscMatrix<f64>) -> Result<Self, SolveError> {
-        let mut factor = SymmetricRows::new(matrix)?;
+    pub fn new(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        let mut factor = SymmetricRows::new(matrix, watch)?;
         let mut column = 0;
         for shift in SHIFTS {
             if shift > 0.0 {
                 factor.rows.values.copy_from_slice(matrix.values());
             }
-            match factorize(&mut factor, shift) {
-                Ok(()) => return Ok(Self { factor, shift }),
-                Err(failed) => column = failed,
+            match factorize(&mut factor, shift, watch)? {
+                None => return Ok(Self { factor, shift }),
+                Some(failed) => column = failed,
             }
         }
         Err(SolveError::NotPositiveDefinite { column })
@@ -103,16 +107,18 @@ impl IncompleteCholesky {
     }
 }
 
-/// Row by row in place; fails with the row of a pivot that is too small.
-fn factorize(factor: &mut SymmetricRows, shift: f64) -> Result<(), usize> {
+/// Factorises row by row in place; the row of a pivot that is too small, if there is one.
+fn factorize(factor: &mut SymmetricRows, shift: f64, watch: &Watch<'_>) -> Result<Option<usize>, Cancelled> {
     let n = factor.size();
     // The row at work, by columns.
     let mut dense = vec![0.0; n];
     for i in 0..n {
         let row = factor.lower(i);
+        let mut work = TICKS_PER_ENTRY;
         for place in row.clone() {
             let j = factor.rows.columns[place] as usize;
             let other = factor.lower(j);
+            work += TICKS_PER_ENTRY * (4 + other.len().min(8 * row.len())) as u64;
             let mut sum = factor.rows.values[place];
             if other.len() > 8 * row.len() {
                 // A short row against that of a vertex with very many neighbours: looked up entry by entry, as otherwise
@@ -134,14 +140,15 @@ fn factorize(factor: &mut SymmetricRows, shift: f64) -> Result<(), usize> {
         let pivot =
             row.clone().fold(diagonal, |pivot, place| pivot - factor.rows.values[place] * factor.rows.values[place]);
         if !(pivot > SMALLEST_PIVOT * diagonal && pivot.is_finite()) {
-            return Err(i);
+            return Ok(Some(i));
         }
         factor.rows.values[middle] = 1.0 / pivot.sqrt();
         for place in row {
             dense[factor.rows.columns[place] as usize] = 0.0;
         }
+        watch.tick(work)?;
     }
-    Ok(())
+    Ok(None)
 }
 
 impl Preconditioner for IncompleteCholesky {
@@ -149,7 +156,8 @@ impl Preconditioner for IncompleteCholesky {
         self.factor.size()
     }
 
-    fn apply(&self, r: &[f64], _watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+        watch.tick(TICKS_PER_ENTRY * self.factor.rows.values.len() as u64)?;
         let (factor, mut z) = (&self.factor, r.to_vec());
         for i in 0..z.len() {
             z[i] = (z[i] - factor.rows.gather(factor.lower(i), &z)) * factor.diagonal(i);

@@ -2,7 +2,14 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::error::SolveError;
+use crate::Watch;
+use crate::error::{Cancelled, SolveError};
+use crate::support::memory;
+
+/// An entry that is put in its place in the transposed matrix.
+const TICKS_PER_MOVE: u64 = 8;
+/// A pair of entries in a product of matrices.
+const TICKS_PER_PAIR: u64 = 5;
 
 /// A sparse matrix by rows.
 #[derive(Debug, Clone, Default)]
@@ -43,7 +50,7 @@ impl Rows {
 
     /// The transposed matrix; its columns ascend.
     #[inline(never)]
-    pub(super) fn transposed(&self) -> Self {
+    pub(super) fn transposed(&self, watch: &Watch<'_>) -> Result<Self, Cancelled> {
         let mut offsets = vec![0_u32; self.width + 1];
         for &j in &self.columns {
             offsets[j as usize + 1] += 1;
@@ -60,18 +67,20 @@ impl Rows {
                 columns[place] = i as u32;
                 values[place] = value;
             }
+            watch.tick(TICKS_PER_MOVE * self.range(i).len() as u64)?;
         }
-        Self { offsets, columns, values, width: self.height() }
+        Ok(Self { offsets, columns, values, width: self.height() })
     }
 
     /// The product with `right`; its columns come in no order.
     #[inline(never)]
-    pub(super) fn times(&self, right: &Self) -> Self {
+    pub(super) fn times(&self, right: &Self, watch: &Watch<'_>) -> Result<Self, Cancelled> {
         let mut product = Self { offsets: vec![0], width: right.width, ..Self::default() };
         let mut places = vec![0_u32; right.width];
         for i in 0..self.height() {
-            let start = product.columns.len();
+            let (start, mut pairs) = (product.columns.len(), 0);
             for (k, scale) in self.row(i) {
+                pairs += right.range(k).len();
                 for (j, value) in right.row(k) {
                     let place = places[j] as usize;
                     // A place counts where it is of this row and holds this column: nothing needs clearing between rows.
@@ -85,8 +94,9 @@ impl Rows {
                 }
             }
             product.offsets.push(product.columns.len() as u32);
+            watch.tick(TICKS_PER_PAIR * pairs as u64)?;
         }
-        product
+        Ok(product)
     }
 }
 
@@ -97,12 +107,12 @@ fn entries(rows: &Rows, range: core::ops::Range<usize>) -> impl Iterator<Item = 
 
 impl SymmetricRows {
     /// Checks that the matrix is square, finite, symmetric in its pattern, and positive on its diagonal.
-    pub(super) fn new(matrix: &CscMatrix<f64>) -> Result<Self, SolveError> {
-        Self::shifted(matrix, &[])
+    pub(super) fn new(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        Self::shifted(matrix, &[], watch)
     }
 
-    /// As [`SymmetricRows::new`], with `shift` added to the diagonal first; no shift at all is none.
-    pub(super) fn shifted(matrix: &CscMatrix<f64>, shift: &[f64]) -> Result<Self, SolveError> {
+    /// Checks the matrix like [`SymmetricRows::new`], with `shift` added to the diagonal first; no shift at all is none.
+    pub(super) fn shifted(matrix: &CscMatrix<f64>, shift: &[f64], watch: &Watch<'_>) -> Result<Self, SolveError> {
         let n = matrix.nrows();
         if matrix.ncols() != n {
             return Err(SolveError::DimensionMismatch { expected: n, actual: matrix.ncols() });
@@ -112,6 +122,9 @@ impl SymmetricRows {
             return Err(SolveError::OutOfMemory { bytes: 12 * count as u64 });
         }
         let (offsets, ids) = (matrix.col_offsets(), matrix.row_indices());
+        watch.tick(TICKS_PER_MOVE * count as u64)?;
+        // The matrix in 32-bit ids, and places of diagonal entries; where the columns are read.
+        memory::ensure((12 * count + (8 + size_of::<usize>()) * n) as u64)?;
         // Going through the columns in order, the mirror images of a row's entries come in order too.
         let mut next = offsets[..n].to_vec();
         for j in 0..n {

@@ -2,11 +2,11 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::multigrid::Multigrid;
+use super::multigrid::{Multigrid, setup_ticks};
 use super::preconditioner::Preconditioner;
 use super::rows::SymmetricRows;
-use crate::Watch;
 use crate::error::SolveError;
+use crate::{Phase, Watch};
 
 /// Most inner iterations; multigrid takes a handful, but for rows of needle triangles.
 const MOST_INNER: usize = 500;
@@ -51,9 +51,13 @@ impl SquaredSum {
         if let Some(row) = diagonal.iter().position(|d| !d.is_finite()) {
             return Err(SolveError::NonFiniteEntry { row });
         }
-        let sum = SymmetricRows::shifted(matrix, diagonal)?;
+        let mut plan = watch.plan(&[(Phase::Analysis, 1.0)]);
+        plan.begin(setup_ticks(matrix))?;
+        let sum = SymmetricRows::shifted(matrix, diagonal, watch)?;
         let largest = (0..sum.size()).map(|i| sum.diagonal(i)).fold(0.0, f64::max);
-        Ok(Self { multigrid: Multigrid::from_rows(sum, watch)?, tolerance, largest, between: None })
+        let multigrid = Multigrid::from_rows(sum, watch)?;
+        plan.finish()?;
+        Ok(Self { multigrid, tolerance, largest, between: None })
     }
 
     /// Sets another tolerance for both solves.

@@ -4,14 +4,14 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::bisection::bisect;
 use super::edge_cut::EdgeRefiner;
-use super::flow::Flow;
 use super::graph::Graph;
 use super::ids::{NONE, filled};
 use super::leaf::LeafOrder;
+use super::max_flow::MaxFlow;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
 use crate::support::counting_sort::grouped;
 
 /// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
@@ -22,6 +22,11 @@ const LARGE: usize = 3000;
 const DEPTH: usize = 2;
 /// Passes of the local search. Further ones hardly change anything.
 const PASSES: usize = 2;
+
+/// An unknown of a part that is labelled, grouped and handed down.
+const TICKS_PER_MEMBER: u64 = 40;
+/// A pair of unknowns of a leaf.
+const TICKS_PER_LEAF: u64 = 4;
 
 /// Nested dissection (\[George73\]) of the graph of a square symmetric pattern: a small set of unknowns that separates the rest
 /// into two parts of similar size comes last, and each of the parts is ordered alike, until minimum degree takes over. Leaves
@@ -34,7 +39,7 @@ const PASSES: usize = 2;
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn nested_dissection(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
+pub fn nested_dissection(pattern: &SparsityPattern, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -44,12 +49,12 @@ pub fn nested_dissection(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Resul
     let mut order: Vec<u32> = (0..n as u32).filter(|&v| !is_dense[v as usize]).collect();
     // Four of the seven around a vertex of a mesh, eight of the nineteen in the graph of a squared operator.
     let cluster_size = (2 + graph.neighbours.len() / (3 * n.max(1))).clamp(2, 8);
-    let (cluster_of, count) = graph.cluster(cluster_size);
-    let clusters = graph.contract(&cluster_of, count);
+    let (cluster_of, count) = graph.cluster(cluster_size, watch)?;
+    let clusters = graph.contract(&cluster_of, count, watch)?;
     let mut dissection = Dissection {
         labels: filled(n),
         refiner: Refiner::new(n),
-        flow: Flow::new(n),
+        flow: MaxFlow::new(n),
         cluster_refiner: EdgeRefiner::new(count),
         leaf: LeafOrder::new(n),
         place: filled(count),
@@ -63,7 +68,7 @@ pub fn nested_dissection(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Resul
     let end = order.len();
     dissection.stack.push(Part { begin: 0, end, ids: (0..count as u32).collect(), clusters });
     while let Some(part) = dissection.stack.pop() {
-        dissection.split(&mut order, &part);
+        dissection.split(&mut order, &part, watch)?;
     }
     order.extend_from_slice(&dense);
     Ok(order)
@@ -87,7 +92,7 @@ struct Dissection {
     labels: Vec<u32>,
     base: u32,
     refiner: Refiner,
-    flow: Flow,
+    flow: MaxFlow,
     cluster_refiner: EdgeRefiner,
     leaf: LeafOrder,
     /// The vertex of a cluster in the graph of the current part.
@@ -103,12 +108,13 @@ struct Dissection {
 impl Dissection {
     /// Orders a small part; cuts a larger one in two and leaves these for later.
     #[inline(never)]
-    fn split(&mut self, order: &mut [u32], part: &Part) {
+    fn split(&mut self, order: &mut [u32], part: &Part, watch: &Watch<'_>) -> Result<(), Cancelled> {
         let members = &mut order[part.begin..part.end];
         if members.len() <= LEAF {
             self.leaf.order(&self.graph, members);
-            return;
+            return watch.tick(TICKS_PER_LEAF * (members.len() * members.len()) as u64);
         }
+        watch.tick(TICKS_PER_MEMBER * members.len() as u64)?;
         for (i, &id) in part.ids.iter().enumerate() {
             self.local[id as usize] = i as u32;
         }
@@ -116,24 +122,24 @@ impl Dissection {
         if count > 1 {
             let groups: Vec<u32> = members.iter().map(|&v| component_of[self.cluster(v)]).collect();
             self.descend(members, part, &groups, count, count);
-            return;
+            return Ok(());
         }
-        let sides = bisect(&part.clusters, &mut self.cluster_refiner);
+        let sides = bisect(&part.clusters, &mut self.cluster_refiner, watch)?;
         self.base += LABELS;
         let mut cut = self.separate(members, &part.clusters, &sides);
-        self.refiner.refine(&self.graph, &mut self.labels, self.base, &mut cut, PASSES);
+        self.refiner.refine(&self.graph, &mut self.labels, self.base, &mut cut, PASSES, watch)?;
         if members.len() >= LARGE {
-            self.flow.improve(&self.graph, &mut self.labels, self.base, &mut cut, DEPTH);
+            self.flow.improve(&self.graph, &mut self.labels, self.base, &mut cut, DEPTH, watch)?;
         }
         let smaller = cut.sizes[0].min(cut.sizes[1]) as usize;
         // Large parts of meshes do with a few hundredths. What needs a sixth, as random graphs do, is better left to minimum degree.
         let is_thick = members.len() >= LARGE / 3 && cut.separator.len() * 6 > members.len();
         if smaller < cut.separator.len() || smaller * 50 < members.len() || is_thick {
-            self.order_whole(members);
-            return;
+            return self.order_whole(members, watch);
         }
         let groups: Vec<u32> = members.iter().map(|&v| self.labels[v as usize] - self.base).collect();
         self.descend(members, part, &groups, 3, 2);
+        Ok(())
     }
 
     fn cluster(&self, v: u32) -> usize {
@@ -203,13 +209,14 @@ impl Dissection {
 
     /// Orders a part that has no separator.
     #[inline(never)]
-    fn order_whole(&mut self, members: &mut [u32]) {
+    fn order_whole(&mut self, members: &mut [u32], watch: &Watch<'_>) -> Result<(), Cancelled> {
         let mut place = filled(self.graph.len());
         let part = self.graph.part(members, vec![1; members.len()], &mut place);
         let old = members.to_vec();
-        for (place, &new) in members.iter_mut().zip(&order_graph(&part)) {
+        for (place, &new) in members.iter_mut().zip(&order_graph(&part, watch)?) {
             *place = old[new as usize];
         }
+        Ok(())
     }
 }
 

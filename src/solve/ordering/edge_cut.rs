@@ -3,6 +3,8 @@
 use super::graph::Graph;
 use super::queue::BucketQueue;
 use super::refine::{IMBALANCE, LEFT, RIGHT, cost};
+use crate::Watch;
+use crate::error::Cancelled;
 
 /// A cut between two sides.
 #[derive(Clone, Copy, Default)]
@@ -38,6 +40,10 @@ impl EdgeCut {
     }
 }
 
+/// A vertex that may be at the cut, and one that moves or is at the cut.
+const TICKS_PER_VERTEX: u64 = 12;
+const TICKS_PER_MOVE: u64 = 100;
+
 /// Buckets of a queue; gains are counted from the middle.
 const BUCKETS: i64 = 512;
 
@@ -67,17 +73,28 @@ impl EdgeRefiner {
 
     /// Improves a cut until that fails or `passes` are over.
     #[inline(never)]
-    pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
+    pub(super) fn refine(
+        &mut self,
+        graph: &Graph,
+        labels: &mut [u32],
+        cut: &mut EdgeCut,
+        passes: usize,
+        watch: &Watch<'_>,
+    ) -> Result<(), Cancelled> {
         // Gains in buckets of about a sixteenth of the edges that a vertex has on average; a power of two, as divisions are slow.
         let shift = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
         let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
         for _ in 0..passes {
             let before = cut.cost();
+            // Boundaries are short but for the first pass, which goes over the whole graph.
+            let seen = boundary.len() as u64;
             self.run(graph, labels, cut, shift, &mut boundary);
+            watch.tick(TICKS_PER_VERTEX * seen + TICKS_PER_MOVE * (boundary.len() + self.log.len()) as u64)?;
             if cut.cost() >= before {
                 break;
             }
         }
+        Ok(())
     }
 
     fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, shift: u32, boundary: &mut Vec<u32>) {

@@ -3,10 +3,15 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::ids::{NONE, filled};
+use crate::Watch;
+use crate::error::Cancelled;
 use crate::support::counting_sort::grouped;
 
 /// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
 const MANY: usize = 64;
+
+/// An edge that is looked at, in a graph that does not fit the cache.
+const TICKS_PER_EDGE: u64 = 4;
 
 /// An undirected graph without loops, every edge stored at both ends.
 pub(super) struct Graph {
@@ -71,7 +76,7 @@ impl Graph {
     }
 
     /// The graph whose vertices are `count` clusters of this one's.
-    pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
+    pub(super) fn contract(&self, cluster_of: &[u32], count: usize, watch: &Watch<'_>) -> Result<Self, Cancelled> {
         let members = grouped(cluster_of, count);
         let mut offsets = Vec::with_capacity(count + 1);
         let mut neighbours: Vec<u32> = Vec::new();
@@ -81,8 +86,9 @@ impl Graph {
         let mut place = vec![0_u32; count];
         offsets.push(0);
         for cluster in 0..count {
-            let begin = neighbours.len();
+            let (begin, mut seen) = (neighbours.len(), 4);
             for &v in members.bucket(cluster as u32) {
+                seen += self.range(v).len();
                 weights[cluster] += self.weights[v as usize];
                 for edge in self.range(v) {
                     let other = cluster_of[self.neighbours[edge] as usize] as usize;
@@ -101,8 +107,9 @@ impl Graph {
                 }
             }
             offsets.push(neighbours.len() as u32);
+            watch.tick(TICKS_PER_EDGE * seen as u64)?;
         }
-        Self { offsets, neighbours, weights, edge_weights }
+        Ok(Self { offsets, neighbours, weights, edge_weights })
     }
 
     /// The graph of some of the vertices, in the given order with the given weights. `place` is scratch for every vertex, all `NONE`.
@@ -135,7 +142,7 @@ impl Graph {
     /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns
     /// the cluster of every vertex and the number of clusters.
     #[inline(never)]
-    pub(super) fn cluster(&self, most: usize) -> (Vec<u32>, usize) {
+    pub(super) fn cluster(&self, most: usize, watch: &Watch<'_>) -> Result<(Vec<u32>, usize), Cancelled> {
         let n = self.len();
         let mut cluster_of = filled(n);
         let mut sizes: Vec<u32> = Vec::new();
@@ -146,6 +153,7 @@ impl Graph {
                 if cluster_of[v as usize] != NONE {
                     continue;
                 }
+                let mut seen = self.of(v).len();
                 free.clear();
                 free.extend(self.of(v).iter().filter(|&&u| cluster_of[u as usize] == NONE).map(|&u| u64::from(u)));
                 let wanted = self.of(v).len().min(most - 1);
@@ -161,6 +169,7 @@ impl Graph {
                     }
                     // Fewest strangers first.
                     for entry in &mut free {
+                        seen += self.of(*entry as u32).len();
                         let strangers = self.of(*entry as u32).iter().filter(|&&t| mark[t as usize] != v).count();
                         *entry |= (strangers as u64) << 32;
                     }
@@ -173,10 +182,11 @@ impl Graph {
                     cluster_of[u as u32 as usize] = cluster;
                 }
                 sizes.push(1 + free.len() as u32);
+                watch.tick(TICKS_PER_EDGE * seen as u64)?;
             }
         }
         let count = sizes.len();
-        (cluster_of, count)
+        Ok((cluster_of, count))
     }
 
     /// Adds a vertex to the neighbouring cluster with the most of its neighbours among those that are not full.
@@ -207,7 +217,7 @@ impl Graph {
 
     /// Pairs of vertices joined by their heaviest edges (\[Karypis98\]), none heavier than `most`, as clusters. Vertices choose in
     /// steps of `stride`.
-    pub(super) fn pairs(&self, most: u32, stride: usize) -> (Vec<u32>, usize) {
+    pub(super) fn pairs(&self, most: u32, stride: usize, watch: &Watch<'_>) -> Result<(Vec<u32>, usize), Cancelled> {
         let n = self.len();
         let mut cluster_of = filled(n);
         let mut count = 0;
@@ -231,7 +241,8 @@ impl Graph {
             cluster_of[v as usize] = count;
             cluster_of[best as usize] = count;
             count += 1;
+            watch.tick(TICKS_PER_EDGE * (2 + self.range(v).len() as u64))?;
         }
-        (cluster_of, count as usize)
+        Ok((cluster_of, count as usize))
     }
 }

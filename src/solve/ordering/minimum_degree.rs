@@ -6,7 +6,11 @@ use super::graph::Graph;
 use super::ids::NONE;
 use super::queue::BucketQueue;
 use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
+
+/// A pivot, and a variable of its clique.
+const TICKS_PER_PIVOT: u64 = 200;
+const TICKS_PER_VARIABLE: u64 = 60;
 
 /// Approximate minimum degree on the quotient graph (\[Amestoy96\]): at every step the unknown whose elimination links the
 /// fewest others, up to overlaps, goes next. Unknowns that become indistinguishable are merged, eliminated ones that
@@ -16,9 +20,9 @@ use crate::error::SolveError;
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn minimum_degree(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
+pub fn minimum_degree(pattern: &SparsityPattern, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
     let (graph, dense) = Graph::new(pattern);
-    let mut order = order_graph(&graph);
+    let mut order = order_graph(&graph, watch)?;
     // The unknowns of very high degree have lost their edges; they go to the end.
     let mut is_dense = vec![false; order.len()];
     for &v in &dense {
@@ -29,11 +33,12 @@ pub fn minimum_degree(pattern: &SparsityPattern, _watch: &Watch<'_>) -> Result<V
     Ok(order)
 }
 
-/// The same for a compact graph.
-pub(super) fn order_graph(graph: &Graph) -> Vec<u32> {
+/// Orders the vertices of a compact graph.
+pub(super) fn order_graph(graph: &Graph, watch: &Watch<'_>) -> Result<Vec<u32>, Cancelled> {
     let mut graph = QuotientGraph::new(graph);
     while let Some(pivot) = graph.queue.pop() {
         graph.eliminate(pivot);
+        watch.tick(TICKS_PER_PIVOT + TICKS_PER_VARIABLE * graph.variables[pivot as usize].len() as u64)?;
     }
     let mut order = Vec::with_capacity(graph.weight.len());
     let mut stack = Vec::new();
@@ -48,7 +53,7 @@ pub(super) fn order_graph(graph: &Graph) -> Vec<u32> {
             }
         }
     }
-    order
+    Ok(order)
 }
 
 /// Variables (not yet eliminated) and elements (eliminated pivots, each a clique of variables).

@@ -3,10 +3,11 @@
 mod bisection;
 mod dissection;
 mod edge_cut;
-mod flow;
+
 mod graph;
 mod ids;
 mod leaf;
+mod max_flow;
 mod minimum_degree;
 mod permutation;
 mod queue;

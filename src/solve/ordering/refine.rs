@@ -2,6 +2,8 @@
 
 use super::graph::Graph;
 use super::queue::BucketQueue;
+use crate::Watch;
+use crate::error::Cancelled;
 
 /// What a label says beyond the base of its part.
 pub(super) const LEFT: u32 = 0;
@@ -36,6 +38,9 @@ impl Cut {
     }
 }
 
+/// An unknown that enters the separator or leaves it.
+const TICKS_PER_MOVE: u64 = 150;
+
 /// More unknowns than these that a move drags along make no difference.
 const KEYS: usize = 256;
 
@@ -65,14 +70,25 @@ impl Refiner {
 
     /// Improves a cut until that fails or `passes` are over.
     #[inline(never)]
-    pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, passes: usize) {
+    pub(super) fn refine(
+        &mut self,
+        graph: &Graph,
+        labels: &mut [u32],
+        base: u32,
+        cut: &mut Cut,
+        passes: usize,
+        watch: &Watch<'_>,
+    ) -> Result<(), Cancelled> {
         for _ in 0..passes {
             let before = cut.cost();
+            let seen = cut.separator.len();
             self.run(graph, labels, base, cut);
+            watch.tick(TICKS_PER_MOVE * (seen + self.log.len()) as u64)?;
             if cut.cost() >= before {
                 break;
             }
         }
+        Ok(())
     }
 
     fn run(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut) {

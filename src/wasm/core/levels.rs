@@ -83,11 +83,10 @@ impl Levels {
     fn at_saddles(record: &Record) -> Option<Self> {
         let (count, offset) = (Self::count(record), record.number("offset"));
         if count.is_some() {
-            record.foreign("`count` says which levels", &|record| {
-                record.has("saddles");
-            });
-            if offset.is_some() {
-                record.inapplicable("offset", "`count` says which levels");
+            for (option, is_there) in [("saddles", record.has("saddles")), ("offset", offset.is_some())] {
+                if is_there {
+                    record.inapplicable(option, "`count` says which levels");
+                }
             }
             return count;
         }

@@ -4,7 +4,6 @@ mod critical;
 mod files;
 mod levels;
 mod mesh;
-mod names;
 mod options;
 mod persistence;
 mod reading;

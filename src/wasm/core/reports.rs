@@ -57,8 +57,8 @@ pub(super) fn energies(energies: &SmoothnessEnergies) -> Object {
 pub(super) fn smoothing(report: &SmoothReport) -> Object {
     let answer = Answer::new();
     let optional_count = |name: &str, count: Option<usize>| answer.optional(name, count.map(|count| count as f64));
-    answer.text("method", report.method);
-    answer.text("equation", report.equation);
+    answer.text("method", report.method.name());
+    answer.text("equation", report.equation.name());
     answer.optional("epsilon", report.epsilon);
     answer.count("constraintCount", report.constraint_count);
     answer.part("before", counts(&report.before));
@@ -91,8 +91,8 @@ fn maximum_principle(principle: &MaximumPrinciple) -> Answer {
 
 fn solver(report: &SolverReport) -> Answer {
     let answer = Answer::new();
-    answer.text("route", report.route);
-    answer.text("precision", report.precision);
+    answer.text("route", report.route.name());
+    answer.text("precision", report.precision.name());
     answer.count("unknowns", report.unknowns);
     answer.number("factorNonzeros", report.factor_nonzeros as f64);
     answer.number("relativeResidual", report.relative_residual);

@@ -4,11 +4,11 @@ use js_sys::{Array, Float64Array, Object};
 use wasm_bindgen::prelude::*;
 
 use super::mesh::RawTriMesh;
-use super::options::{MethodName, ShortMethod, Smoothing, smoother};
+use super::options::{ShortMethod, Smoothing, from_rule, smoother};
 use super::reports;
 use super::watching::Watching;
 use crate::error::{OptionError, Result as Outcome};
-use crate::smooth::{Smoothed, Smoother};
+use crate::smooth::{MethodName, Smoothed, Smoother};
 use crate::wasm::shared::answer::Answer;
 use crate::wasm::shared::arrays::floats;
 use crate::wasm::shared::error::Thrown;
@@ -45,7 +45,7 @@ impl RawSmoother {
 pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
     let (options, smoothing, watching) = read("", options, |record| {
         let options = smoother(record);
-        let default = if record.has("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
+        let default = if record.holds("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
         let method = record.choice("method").unwrap_or(default);
         let smoothing = Smoothing::read(record, method.method(), options.operator);
         record.foreign("the method does not have it", &|record| {
@@ -61,10 +61,7 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
 
 fn run(smoother: &mut Smoother, smoothing: &Smoothing, watching: &Watching, values: &Float64Array) -> Outcome<Object> {
     let values = floats(values)?;
-    let mut tell = |phase: crate::smooth::Phase, fraction: f64| {
-        let _ = watching.tell(phase.name(), fraction);
-    };
-    let smoothed = smoothing.apply(smoother, &values, &mut tell)?;
+    let smoothed = watching.run(|watch| smoother.apply(&values, &smoothing.method(), watch)).map_err(from_rule)?;
     answer(&smoothed)
 }
 

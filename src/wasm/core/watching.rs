@@ -19,14 +19,14 @@ impl Watching {
 
     /// Does work that the caller watches.
     pub(super) fn run<T>(&self, work: impl FnOnce(&Watch<'_>) -> T) -> T {
-        let mut tell = |progress: Progress| self.tell(progress.phase.name(), progress.fraction);
+        let mut tell = |progress| self.tell(progress);
         work(&Watch::new(&mut tell))
     }
 
     #[inline(never)]
-    pub(super) fn tell(&self, phase: &str, fraction: f64) -> ControlFlow<()> {
+    fn tell(&self, progress: Progress) -> ControlFlow<()> {
         let Some(callback) = &self.0 else { return ControlFlow::Continue(()) };
-        let (phase, fraction) = (JsValue::from_str(phase), JsValue::from_f64(fraction));
+        let (phase, fraction) = (JsValue::from_str(progress.phase.name()), JsValue::from_f64(progress.fraction));
         match callback.call2(&JsValue::NULL, &phase, &fraction) {
             Ok(answer) if answer != JsValue::FALSE => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),

@@ -6,6 +6,7 @@ use js_sys::{Array, Object};
 use wasm_bindgen::{JsCast, JsValue};
 
 use crate::error::{Error, OptionError, Result};
+use crate::support::named::Named;
 
 /// Reads an options object: `fields` asks the record for every option that there is, by its name. `place` is the option that the
 /// object is the value of, empty for the options themselves; errors say so. `undefined` and `null` leave everything to defaults.
@@ -95,6 +96,11 @@ impl Record {
         Some(&entry.value).filter(|value| !is_absent(value))
     }
 
+    /// Whether the entry is there, without asking for it.
+    pub(in crate::wasm) fn holds(&self, name: &str) -> bool {
+        self.entries.iter().any(|entry| entry.name == name && !is_absent(&entry.value))
+    }
+
     /// Whether the entry is there.
     pub(in crate::wasm) fn has(&self, name: &str) -> bool {
         self.get(name).is_some()
@@ -131,6 +137,26 @@ impl Record {
     pub(in crate::wasm) fn integer_of(&self, name: &str, expected: &str) -> Option<u32> {
         let is_whole = |x: &f64| x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x);
         self.read(name, expected, |value| value.as_f64().filter(is_whole).map(|x| x as u32))
+    }
+
+    /// One of the choices, by its name.
+    pub(in crate::wasm) fn choice<T: Named>(&self, name: &str) -> Option<T> {
+        self.has(name).then(|| self.chosen(name))?
+    }
+
+    /// One of the choices, by its name, where none is the default.
+    pub(in crate::wasm) fn chosen<T: Named>(&self, name: &str) -> Option<T> {
+        let found = self.get(name).and_then(JsValue::as_string).and_then(|label| T::labelled(&label));
+        if found.is_none() {
+            self.no_choice(name, &mut T::CHOICES.iter().map(|choice| choice.label()));
+        }
+        found
+    }
+
+    #[inline(never)]
+    fn no_choice(&self, name: &str, labels: &mut dyn Iterator<Item = &'static str>) {
+        let labels: Vec<&str> = labels.collect();
+        self.invalid(name, &format!("one of \"{}\"", labels.join("\", \"")));
     }
 
     /// An object of a class.

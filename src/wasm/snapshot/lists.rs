@@ -43,8 +43,10 @@ pub(super) fn draw_list(list: &DrawList) -> Result<Object, OutOfMemory> {
     let answer = Answer::new();
     singles(&answer, "shades", &list.shades);
     answer.array("colors", colors.as_flattened());
-    let gap = list.gap.map_or(JsValue::NULL, |[red, green, blue]| u32::from_be_bytes([0, red, green, blue]).into());
-    answer.set("gap", &gap);
+    match list.gap {
+        None => answer.set("gap", &JsValue::NULL),
+        Some([red, green, blue]) => answer.number("gap", f64::from(u32::from_be_bytes([0, red, green, blue]))),
+    }
     answer.set("range", &numbers(&list.range));
     answer.array("levels", &list.levels);
     let lines: Array = list.lines.iter().map(lines).collect::<Result<_, _>>()?;

@@ -3,14 +3,9 @@
 use js_sys::{Array, Float64Array};
 use wasm_bindgen::JsCast;
 
-use crate::wasm::shared::record::{Record, is_absent};
+use crate::wasm::shared::record::Record;
 
 impl Record {
-    /// Whether the entry is there, without asking for it.
-    pub(super) fn holds(&self, name: &str) -> bool {
-        self.entries.iter().any(|entry| entry.name == name && !is_absent(&entry.value))
-    }
-
     /// Takes entries for known that are not asked for.
     pub(super) fn ignore_others(&self) {
         self.entries.iter().for_each(|entry| entry.is_known.set(true));

@@ -26,15 +26,7 @@ pub(crate) const RULES: Rules = Rules {
     ],
     orders: &[
         ("io", &[&["scan"], &["cursor"], &["assembly"], &["obj", "off", "ply", "vtk", "table"], &["write"], &["mod"]]),
-        (
-            "mesh",
-            &[
-                &["connectivity", "geometry"],
-                &["topology", "validate"],
-                &["mod"],
-                &["shapes", "submesh", "weld"],
-            ],
-        ),
+        ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
         ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
@@ -94,14 +86,20 @@ pub(crate) const RULES: Rules = Rules {
         (
             "smooth",
             &[
-                &["options", "channels"],
-                &["routes"],
+                &["options", "names"],
+                &["active", "bounds", "data_term", "maximum_principle", "schedule"],
+                &["operators"],
+                &["missing"],
+                &["channels"],
+                &["input", "routes"],
                 &["system"],
-                &["constraints", "maximum_principle", "bounds"],
+                &["systems"],
+                &["constraints"],
+                &["unconstrained"],
                 &["report"],
-                &["regularized"],
-                &["tikhonov"],
-                &["least_squares", "interpolate", "filters"],
+                &["run"],
+                &["methods"],
+                &["method"],
                 &["mod"],
             ],
         ),

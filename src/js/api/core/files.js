@@ -2,10 +2,10 @@ import { toBytes, toOptions } from '../../runtime/convert.js';
 import { Handle, disposable } from '../../runtime/handles.js';
 import { toFields } from './arguments.js';
 import { handleOf, meshOf } from './mesh.js';
-import { module } from './module.js';
+import { core } from './module.js';
 
 export function readMesh(bytes, options) {
-  const { instance } = module;
+  const { instance } = core;
   const input = toBytes(bytes);
   const settings = toOptions(options);
   const file = instance.work((glue) => glue.readMesh(input, settings));
@@ -15,14 +15,14 @@ export function readMesh(bytes, options) {
 }
 
 export function readField(bytes, options) {
-  const { instance } = module;
+  const { instance } = core;
   const input = toBytes(bytes);
   const settings = toOptions(options);
   return instance.work((glue) => glue.readField(input, settings));
 }
 
 export function writeMesh(mesh, options) {
-  void module.instance;
+  void core.instance;
   const source = handleOf(mesh);
   const settings = toOptions(options);
   if (settings?.fields !== undefined) settings.fields = toFields(settings.fields);

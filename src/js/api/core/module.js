@@ -2,4 +2,4 @@ import { createGlue } from 'glue:core';
 import { Module } from '../../runtime/module.js';
 
 /** The WebAssembly module of `morse-smooth`. */
-export const module = new Module(createGlue, 'morse-smooth', 'rawtrimesh_new');
+export const core = new Module(createGlue, 'morse-smooth', 'rawtrimesh_new');

@@ -2,7 +2,7 @@ import { toNumbers, toOptions } from '../../runtime/convert.js';
 import { watched } from '../../runtime/progress.js';
 import { toConstraints } from './arguments.js';
 import { handleOf } from './mesh.js';
-import { module } from './module.js';
+import { core } from './module.js';
 
 /** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
 const CONSTRAINED = ['interpolate', 'leastSquares'];
@@ -15,7 +15,7 @@ export class Smoother {
 
   constructor(mesh, options) {
     // Before anything else: whether there is an instance at all.
-    void module.instance;
+    void core.instance;
     const source = handleOf(mesh);
     const given = toOptions(options);
     this.#onProgress = given?.onProgress;
@@ -56,14 +56,15 @@ export class Smoother {
   #smooth(method, values, options) {
     const given = toOptions(options);
     const numbers = toNumbers(values, 'values');
-    const all = isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    const all =
+      isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
     const settings = CONSTRAINED.includes(method) ? withConstraints(all, this.#vertexCount) : all;
     return watched(settings, (settings) => this.#handle.useAlone((raw) => raw.apply(method, numbers, settings)));
   }
 }
 
 export function smooth(mesh, values, options) {
-  void module.instance;
+  void core.instance;
   const source = handleOf(mesh);
   const numbers = toNumbers(values, 'values');
   const given = withConstraints(toOptions(options), mesh.vertexCount);

@@ -1,6 +1,6 @@
 import { toNumbers, toTriangles } from '../../runtime/convert.js';
 import { makeDisposable } from '../../runtime/handles.js';
-import { module } from './module.js';
+import { pictures } from './module.js';
 import { toPictureOptions } from './options.js';
 
 export class Scene {
@@ -8,7 +8,7 @@ export class Scene {
   #vertexCount;
 
   constructor(positions, triangles) {
-    const { instance } = module;
+    const { instance } = pictures;
     const numbers = toNumbers(positions, 'positions');
     this.#vertexCount = Math.floor(numbers.length / 3);
     const ids = toTriangles(triangles, this.#vertexCount);

@@ -5,7 +5,7 @@ mod record;
 mod smoothing;
 
 pub(super) use constraints::{Constraining, from_rule};
-pub(super) use smoothing::{MethodName, ShortMethod, Smoothing, smoother};
+pub(super) use smoothing::{ShortMethod, Smoothing, smoother};
 
 use js_sys::Uint32Array;
 

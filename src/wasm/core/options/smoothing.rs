@@ -2,11 +2,12 @@
 
 use js_sys::Float64Array;
 
-use super::{Constraining, from_rule};
-use crate::error::{OptionError, Result};
+use super::Constraining;
+use crate::error::OptionError;
+use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Metric, Operator, Progress,
-    Smoothed, Smoother, SmootherOptions, TikhonovOptions, Unconstrained, epsilon_for_wavelength,
+    BilateralOptions, Constraints, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, MethodName, Metric,
+    Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
 use crate::wasm::shared::arrays::floats;
@@ -23,21 +24,6 @@ pub(in crate::wasm::core) fn smoother(record: &Record) -> SmootherOptions {
         bounds: record.boolean("bounds").unwrap_or(defaults.bounds),
     }
 }
-
-/// The methods of a smoother.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::wasm::core) enum MethodName {
-    Tikhonov,
-    Interpolate,
-    LeastSquares,
-    LowPass,
-    Bilateral,
-}
-
-named! { MethodName {
-    Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares", LowPass = "lowPass",
-    Bilateral = "bilateral",
-} }
 
 /// The methods of `smooth`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,19 +48,8 @@ impl ShortMethod {
 /// A method with its options; owns what the options of `smooth` borrow.
 pub(in crate::wasm::core) enum Smoothing {
     Tikhonov(TikhonovOptions),
-    Interpolate {
-        constraining: Constraining,
-        unconstrained: Unconstrained,
-        energy: Energy,
-        channels: usize,
-    },
-    LeastSquares {
-        constraining: Constraining,
-        unconstrained: Unconstrained,
-        epsilon: f64,
-        weights: Option<Vec<f64>>,
-        channels: usize,
-    },
+    Interpolate(Constraining, InterpolateOptions<'static>),
+    LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>),
     LowPass(LowPassOptions),
     Bilateral(BilateralOptions),
 }
@@ -83,65 +58,59 @@ impl Smoothing {
     /// `operator` is the smoother's: not every option goes with every operator.
     pub(in crate::wasm::core) fn read(record: &Record, method: MethodName, operator: Operator) -> Self {
         let channels = record.integer("channels").map_or(1, |channels| channels as usize);
+        let missing = record.choice("missing").unwrap_or_default();
         match method {
-            MethodName::Tikhonov => Self::Tikhonov(tikhonov(record, operator, channels)),
-            MethodName::Interpolate => Self::Interpolate {
-                constraining: constraining(record),
-                unconstrained: record.choice("unconstrained").unwrap_or_default(),
-                energy: record.choice("energy").unwrap_or_default(),
-                channels,
-            },
-            MethodName::LeastSquares => Self::LeastSquares {
-                constraining: constraining(record),
-                unconstrained: record.choice("unconstrained").unwrap_or_default(),
-                epsilon: epsilon(record),
-                weights: None,
-                channels,
-            },
-            MethodName::LowPass => Self::LowPass(low_pass(record, channels)),
-            MethodName::Bilateral => Self::Bilateral(bilateral(record, channels)),
+            MethodName::Tikhonov => Self::Tikhonov(TikhonovOptions { channels, missing, ..tikhonov(record, operator) }),
+            MethodName::Interpolate => {
+                let (constraining, constraints) = constraints(record);
+                let energy = record.choice("energy").unwrap_or_default();
+                Self::Interpolate(constraining, InterpolateOptions { constraints, energy, channels, missing })
+            }
+            MethodName::LeastSquares => {
+                let (constraining, constraints) = constraints(record);
+                let options =
+                    LeastSquaresOptions { constraints, epsilon: epsilon(record), weights: None, channels, missing };
+                Self::LeastSquares(constraining, None, options)
+            }
+            MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
+            MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
         }
     }
 
     /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
     pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
-        if let Self::LeastSquares { weights, .. } = &mut self {
+        if let Self::LeastSquares(_, weights, _) = &mut self {
             let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
             *weights = array.and_then(|array| record.taken(floats(&array)));
         }
         self
     }
 
-    pub(in crate::wasm::core) fn apply(
-        &self,
-        smoother: &mut Smoother,
-        values: &[f64],
-        progress: Progress<'_>,
-    ) -> Result<Smoothed> {
+    pub(in crate::wasm::core) fn method(&self) -> Method<'_> {
         match self {
-            Self::Tikhonov(options) => smoother.tikhonov_with_progress(values, options, progress),
-            Self::Interpolate { constraining, unconstrained, energy, channels } => {
-                let constraints = constraining.constraints(*unconstrained);
-                let options = InterpolateOptions { constraints, energy: *energy, channels: *channels };
-                smoother.interpolate_with_progress(values, &options, progress).map_err(from_rule)
+            Self::Tikhonov(options) => Method::Tikhonov(*options),
+            Self::Interpolate(constraining, options) => {
+                let constraints = constraining.constraints(options.constraints.unconstrained);
+                Method::Interpolate(InterpolateOptions { constraints, ..*options })
             }
-            Self::LeastSquares { constraining, unconstrained, epsilon, weights, channels } => {
-                let constraints = constraining.constraints(*unconstrained);
-                let weights = weights.as_deref();
-                let options = LeastSquaresOptions { constraints, epsilon: *epsilon, weights, channels: *channels };
-                smoother.least_squares_with_progress(values, &options, progress).map_err(from_rule)
+            Self::LeastSquares(constraining, weights, options) => {
+                let constraints = constraining.constraints(options.constraints.unconstrained);
+                Method::LeastSquares(LeastSquaresOptions { constraints, weights: weights.as_deref(), ..*options })
             }
-            Self::LowPass(options) => smoother.low_pass_with_progress(values, options, progress),
-            Self::Bilateral(options) => smoother.bilateral_with_progress(values, options, progress),
+            Self::LowPass(options) => Method::LowPass(*options),
+            Self::Bilateral(options) => Method::Bilateral(*options),
         }
     }
 }
 
-fn constraining(record: &Record) -> Constraining {
+/// What is constrained, and what becomes of components without a constraint.
+fn constraints(record: &Record) -> (Constraining, Constraints<'static>) {
     if !record.has("constraints") {
         record.invalid("constraints", Constraining::EXPECTED);
     }
-    record.part("constraints", Constraining::read).unwrap_or_default()
+    let constraining = record.part("constraints", Constraining::read).unwrap_or_default();
+    let unconstrained = record.choice("unconstrained").unwrap_or_default();
+    (constraining, Constraints { unconstrained, ..Constraints::default() })
 }
 
 fn epsilon(record: &Record) -> f64 {
@@ -151,7 +120,7 @@ fn epsilon(record: &Record) -> f64 {
     record.given("epsilon", "a positive finite number, and it has no default")
 }
 
-fn tikhonov(record: &Record, operator: Operator, channels: usize) -> TikhonovOptions {
+fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
     let epsilon = match record.number("cutoffWavelength") {
         None => epsilon(record),
         Some(wavelength) => {
@@ -174,30 +143,39 @@ fn tikhonov(record: &Record, operator: Operator, channels: usize) -> TikhonovOpt
             record.inapplicable(option, "the operator `fem` has its own mass matrix");
         }
     }
-    TikhonovOptions { epsilon, metric, mass_scale, channels }
+    // Without gaps that are filled in no component is without values.
+    let fills = record.choice("missing") == Some(Missing::Fill);
+    let unconstrained = if fills { record.choice("unconstrained") } else { None };
+    TikhonovOptions {
+        epsilon,
+        metric,
+        mass_scale,
+        unconstrained: unconstrained.unwrap_or_default(),
+        ..TikhonovOptions::default()
+    }
 }
 
 fn iterations(record: &Record) -> usize {
     record.given_integer("iterations", "an integer that is not negative, and it has no default")
 }
 
-fn low_pass(record: &Record, channels: usize) -> LowPassOptions {
+fn low_pass(record: &Record) -> LowPassOptions {
     let defaults = LowPassOptions::default();
     LowPassOptions {
         iterations: iterations(record),
         lambda: record.number("lambda").unwrap_or(defaults.lambda),
         mu: record.number("mu").unwrap_or(defaults.mu),
-        channels,
+        ..defaults
     }
 }
 
-fn bilateral(record: &Record, channels: usize) -> BilateralOptions {
+fn bilateral(record: &Record) -> BilateralOptions {
     let given = |option: &str| record.given(option, "a positive finite number, and it has no default");
     BilateralOptions {
         iterations: iterations(record),
         radius: given("radius"),
         sigma_distance: given("sigmaDistance"),
         sigma_value: given("sigmaValue"),
-        channels,
+        ..BilateralOptions::default()
     }
 }

@@ -1,54 +1,54 @@
-//! Which vertices an operator reaches, and what hangs together by it.
+//! The active vertices: those that the operators act on, and what hangs together by them.
 
 use nalgebra_sparse::CscMatrix;
 
+use super::Operator;
 use crate::error::Result;
 use crate::mesh::{LinkKind, TriMesh};
 use crate::operators::{MassScale, lumped_mass_diagonal};
-use crate::smooth::Operator;
 
-/// The component of a vertex that is not reached.
+/// The component of a vertex that is not active.
 const NONE: u32 = u32::MAX;
 
-/// The vertices that the operators reach, by components of L: the kernel of L has one constant for each.
+/// The active vertices, by components of L: the kernel of L has one constant for each.
 #[derive(Debug)]
-pub(in crate::smooth) struct Reach {
-    /// The vertices reached, ascending.
-    active: Vec<u32>,
+pub(super) struct ActiveVertices {
+    /// The active vertices, ascending.
+    list: Vec<u32>,
     /// The component of every vertex.
     component: Vec<u32>,
     /// The least vertex of each component.
     first: Vec<u32>,
 }
 
-impl Reach {
-    pub(in crate::smooth) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
+impl ActiveVertices {
+    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
         let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
         let kinds = mesh.connectivity().link_kinds();
-        let mut active = Vec::with_capacity(kinds.len());
+        let mut list = Vec::with_capacity(kinds.len());
         for (v, column) in laplacian.col_iter().enumerate() {
             // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero. The
             // finite-element operator divides by areas.
             let tied = areas[v] > 0.0 || column.values().iter().any(|&x| x != 0.0);
             let divisible = operator == Operator::Paper || areas[v].recip().is_finite();
             if kinds[v] != LinkKind::Isolated && tied && divisible {
-                active.push(v as u32);
+                list.push(v as u32);
             }
         }
-        let mut reach = Self { component: vec![NONE; kinds.len()], active, first: Vec::new() };
-        reach.number(laplacian);
-        Ok(reach)
+        let mut vertices = Self { component: vec![NONE; kinds.len()], list, first: Vec::new() };
+        vertices.number(laplacian);
+        Ok(vertices)
     }
 
     /// Numbers the components, by their least vertices.
     fn number(&mut self, laplacian: &CscMatrix<f64>) {
-        /// A vertex that is reached and not yet numbered.
+        /// An active vertex without a number yet.
         const OPEN: u32 = NONE - 1;
-        for &v in &self.active {
+        for &v in &self.list {
             self.component[v as usize] = OPEN;
         }
         let mut stack = Vec::new();
-        for &start in &self.active {
+        for &start in &self.list {
             if self.component[start as usize] != OPEN {
                 continue;
             }
@@ -68,19 +68,19 @@ impl Reach {
         }
     }
 
-    /// The vertices reached, ascending.
-    pub(in crate::smooth) fn active(&self) -> &[u32] {
-        &self.active
+    /// The active vertices, ascending.
+    pub(super) fn list(&self) -> &[u32] {
+        &self.list
     }
 
-    /// The component of a vertex; none where it is not reached.
-    pub(in crate::smooth) fn component(&self, vertex: u32) -> Option<usize> {
+    /// The component of a vertex; none where it is not active.
+    pub(super) fn component(&self, vertex: u32) -> Option<usize> {
         let component = self.component[vertex as usize];
         (component != NONE).then_some(component as usize)
     }
 
     /// The least vertex of each component.
-    pub(in crate::smooth) fn first_vertices(&self) -> &[u32] {
+    pub(super) fn first_vertices(&self) -> &[u32] {
         &self.first
     }
 }

@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use crate::error::Cancelled;
+
 /// Bits of the number of a cell along one axis: three of them make a key.
 const BITS: u32 = 21;
 
@@ -13,7 +15,7 @@ const MOST: f64 = (1 << (BITS - 1)) as f64;
 const WIDER: f64 = 1.0 + 1e-6;
 
 /// Takes the points of a cell, and all those that can be near one of them, in nine ranges.
-pub(super) type Visit<'a> = &'a mut dyn FnMut(Range<usize>, &[Range<usize>; 9]);
+pub(super) type Visit<'a> = &'a mut dyn FnMut(Range<usize>, &[Range<usize>; 9]) -> Result<(), Cancelled>;
 
 /// Points in the order of their cells. Cells with following numbers along the first axis follow each other.
 pub(super) struct Grid {
@@ -74,7 +76,10 @@ impl Grid {
     }
 
     /// Goes through all cells, in the same order whenever it is called.
-    pub(super) fn visit(&self, to: Visit<'_>) {
+    ///
+    /// # Errors
+    /// Those of the visitor.
+    pub(super) fn visit(&self, to: Visit<'_>) -> Result<(), Cancelled> {
         // Keys ascend, and so do those of the cells beside them: each row is read along.
         let (mut first, mut end) = ([0; 9], [0; 9]);
         let mut near = [const { 0..0 }; 9];
@@ -90,7 +95,8 @@ impl Grid {
                 }
                 near[row] = self.starts[first[row]]..self.starts[end[row]];
             }
-            to(self.starts[place]..self.starts[place + 1], &near);
+            to(self.starts[place]..self.starts[place + 1], &near)?;
         }
+        Ok(())
     }
 }

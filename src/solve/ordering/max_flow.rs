@@ -1,16 +1,21 @@
-//! The smallest vertex separator near a given one.
+//! The smallest vertex separator near a given one, by a maximum flow.
 
 use super::graph::Graph;
 use super::ids::{NONE, filled};
 use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
+use crate::Watch;
+use crate::error::Cancelled;
+
+/// An edge of the band, each time that its shortest paths are sought.
+const TICKS_PER_EDGE: u64 = 12;
 
 /// The ends of paths.
 const SOURCE: u32 = u32::MAX - 1;
 const SINK: u32 = u32::MAX - 2;
 
-/// As in \[Ashcraft98\]: finds as many paths as possible that share no vertex through a band around the separator; the smallest
+/// The method of \[Ashcraft98\]: finds as many paths as possible that share no vertex through a band around the separator; the smallest
 /// separator in the band has one vertex on each of them (Menger's theorem).
-pub(super) struct Flow {
+pub(super) struct MaxFlow {
     /// The place of a vertex in the band.
     slots: Vec<u32>,
     band: Vec<u32>,
@@ -29,7 +34,7 @@ pub(super) struct Flow {
     stack: Vec<(u32, u32)>,
 }
 
-impl Flow {
+impl MaxFlow {
     pub(super) fn new(n: usize) -> Self {
         Self {
             slots: filled(n),
@@ -48,9 +53,17 @@ impl Flow {
 
     /// Replaces the separator by the smallest one within `depth` steps, where that is better.
     #[inline(never)]
-    pub(super) fn improve(&mut self, graph: &Graph, labels: &mut [u32], base: u32, cut: &mut Cut, depth: usize) {
+    pub(super) fn improve(
+        &mut self,
+        graph: &Graph,
+        labels: &mut [u32],
+        base: u32,
+        cut: &mut Cut,
+        depth: usize,
+        watch: &Watch<'_>,
+    ) -> Result<(), Cancelled> {
         self.collect(graph, labels, base, cut, depth);
-        self.saturate();
+        self.saturate(watch)?;
         // What the sources still reach lies left of the separator.
         let mut new = Cut { sizes: cut.sizes, separator: Vec::new() };
         for i in 0..self.band.len() {
@@ -71,6 +84,7 @@ impl Flow {
         for &v in &self.band {
             self.slots[v as usize] = NONE;
         }
+        Ok(())
     }
 
     fn label(&self, i: usize) -> u32 {
@@ -129,8 +143,9 @@ impl Flow {
     }
 
     /// Blocking flows on shortest paths until there is none (\[Dinic70\]).
-    fn saturate(&mut self) {
+    fn saturate(&mut self, watch: &Watch<'_>) -> Result<(), Cancelled> {
         while self.measure() {
+            watch.tick(TICKS_PER_EDGE * self.neighbours.len() as u64)?;
             for i in 0..self.band.len() {
                 if self.is_source[i] && self.previous[i] != SOURCE {
                     self.search(i as u32);
@@ -142,6 +157,7 @@ impl Flow {
                 self.steps[2 * i] = 0;
             }
         }
+        Ok(())
     }
 
     /// The one exit that follows an entrance, if any: through an unused vertex, or back along the path that uses it.

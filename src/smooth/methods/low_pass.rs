@@ -2,11 +2,19 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Filter, apply, require};
-use crate::error::{Result, SmoothError};
-use crate::smooth::channels::{Channel, Channels};
-use crate::smooth::report::Smoothed;
-use crate::smooth::{Progress, Smoother, bounds};
+use super::{filtered, require};
+use crate::error::{OptionError, Result, SmoothError};
+use crate::field::Missing;
+#[cfg(doc)]
+use crate::smooth::Smoother;
+use crate::smooth::bounds;
+use crate::smooth::channels::Channel;
+use crate::smooth::input::Input;
+use crate::smooth::names::{Equation, MethodName};
+use crate::smooth::report::{About, Measures, Smoothed};
+use crate::smooth::run::{Found, Procedure, Solution, run};
+use crate::smooth::schedule::{Schedule, Stages};
+use crate::support::watch::{Phase, Watch};
 
 /// Beyond this, in units of the range of the input, values grow and do not come back: no filter with non-negative weights that
 /// is of any use comes near.
@@ -23,52 +31,86 @@ pub struct LowPassOptions {
     pub mu: f64,
     /// Values per vertex, interleaved: channel c of vertex i at `i · channels + c`. Default 1.
     pub channels: usize,
+    /// What NaN means; filters cannot fill. Default an error.
+    pub missing: Missing,
 }
 
 impl Default for LowPassOptions {
     fn default() -> Self {
-        Self { iterations: 10, lambda: 0.5, mu: 0.0, channels: 1 }
+        Self { iterations: 10, lambda: 0.5, mu: 0.0, channels: 1, missing: Missing::default() }
     }
 }
 
-pub(in crate::smooth) fn run(
-    smoother: &Smoother,
-    values: &[f64],
-    options: &LowPassOptions,
-    progress: Progress<'_>,
-) -> Result<Smoothed> {
-    let &LowPassOptions { iterations, lambda, mu, channels } = options;
+/// # Errors
+/// `InvalidOption`.
+pub(in crate::smooth) fn check(options: &LowPassOptions) -> Result<(), OptionError> {
     // Comparisons with NaN are false.
-    require(lambda > 0.0 && lambda <= 1.0, "lambda", "a number above 0 and at most 1")?;
-    require((-1.0..=0.0).contains(&mu), "mu", "a number from -1 to 0")?;
-    let channels = Channels::new(&smoother.mesh, values, channels)?;
-    let diagonal = diagonal(&smoother.laplacian);
-    let is_symmetric = smoother.options.weights.is_symmetric();
-    let perturbation_factor = match smoother.options.bounds {
-        true => bounds::low_pass(&smoother.laplacian, &diagonal, is_symmetric, [lambda, mu], iterations),
+    require(options.lambda > 0.0 && options.lambda <= 1.0, "lambda", "a number above 0 and at most 1")?;
+    require((-1.0..=0.0).contains(&options.mu), "mu", "a number from -1 to 0")
+}
+
+pub(in crate::smooth) fn start(input: &Input<'_>, options: &LowPassOptions, watch: &Watch<'_>) -> Result<Smoothed> {
+    let operators = input.operators;
+    let &LowPassOptions { iterations, lambda, mu, .. } = options;
+    let schedule = Schedule::of_filter(input.channels.group_count());
+    let stages = schedule.stages(watch);
+    let diagonal = diagonal(&operators.laplacian);
+    let perturbation_factor = match operators.options.bounds {
+        true => bounds::low_pass(&operators.laplacian, &diagonal, operators.is_symmetric(), [lambda, mu], iterations),
         false => None,
     };
-    let filter = Filter { method: "lowPass", equation: "[18, 24]", iterations, perturbation_factor };
-    let averages = Averages::new(&smoother.laplacian, &diagonal);
-    let mut steps = |channel: &Channel, tell: &mut dyn FnMut(f64)| -> Result<Vec<f64>> {
+    let averages = Averages::new(&operators.laplacian, &diagonal);
+    let about = About {
+        method: MethodName::LowPass,
+        equation: Equation::LowPass,
+        epsilon: None,
+        constraints: None,
+        unconstrained: None,
+    };
+    run(input, &about, &mut LowPass { options, averages, perturbation_factor }, stages)
+}
+
+struct LowPass<'a> {
+    options: &'a LowPassOptions,
+    averages: Averages,
+    perturbation_factor: Option<f64>,
+}
+
+impl Procedure for LowPass<'_> {
+    fn solve(&mut self, group: &[Channel], _: bool, stages: &mut Stages<'_, '_>) -> Result<Found> {
+        let step = 4 * (self.averages.offsets.len() + self.averages.neighbours.len()) as u64;
+        let steps = group.len() * self.options.iterations * if self.options.mu == 0.0 { 1 } else { 2 };
+        stages.begin(Phase::Solve, step.saturating_mul(steps as u64))?;
+        let smooth = |channel: &Channel| self.smoothed(channel, step, stages.watch);
+        let solutions = group.iter().map(smooth).collect::<Result<_>>()?;
+        Ok(Found { solutions, perturbation_factor: self.perturbation_factor })
+    }
+
+    fn measures(&mut self, _: &[f64], _: &[f64]) -> Measures {
+        Measures::default()
+    }
+}
+
+impl LowPass<'_> {
+    /// Takes all steps, of so many ticks each.
+    fn smoothed(&self, channel: &Channel, step: u64, watch: &Watch<'_>) -> Result<Solution> {
         let mut x = channel.normalized.clone();
         let mut next = vec![0.0; x.len()];
-        for iteration in 0..iterations {
+        for iteration in 0..self.options.iterations {
             let mut bounded = true;
-            for scale in [lambda, mu] {
+            for scale in [self.options.lambda, self.options.mu] {
                 if scale != 0.0 {
-                    bounded &= averages.step(&x, scale, &mut next);
+                    watch.tick(step)?;
+                    bounded &= self.averages.step(&x, scale, &mut next);
                     core::mem::swap(&mut x, &mut next);
                 }
             }
             if !bounded {
                 return Err(SmoothError::Diverged { iterations: iteration + 1 }.into());
             }
-            tell((iteration + 1) as f64 / iterations as f64);
         }
-        Ok(x)
-    };
-    apply(smoother, &channels, &filter, &mut steps, progress)
+        Ok(filtered(channel, &x, self.options.iterations))
+    }
 }
 
 fn diagonal(laplacian: &CscMatrix<f64>) -> Vec<f64> {

@@ -1,0 +1,13 @@
+//! What is smoothed: a checked field on its operators.
+
+use super::channels::Channels;
+use super::missing::Gaps;
+use super::operators::Operators;
+
+/// The field to smooth.
+pub(super) struct Input<'a> {
+    pub(super) operators: &'a Operators,
+    pub(super) channels: Channels<'a>,
+    /// Where values are missing and to be filled in.
+    pub(super) gaps: Option<Gaps<'a>>,
+}

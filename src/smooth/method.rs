@@ -1,0 +1,201 @@
+//! The methods of smoothing with their options, as one choice.
+
+use std::sync::Arc;
+
+use super::channels::Channels;
+use super::input::Input;
+use super::methods::{
+    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions, bilateral, interpolate,
+    least_squares, low_pass, tikhonov,
+};
+use super::missing::{Gaps, Part, missing_vertices, to_whole};
+use super::names::MethodName;
+use super::operators::Operators;
+use super::report::Smoothed;
+use super::systems::Systems;
+use super::{Constraints, SmootherOptions};
+use crate::error::{Error, MeshError, OptionError, Result};
+use crate::field::{Features, Missing};
+use crate::mesh::TriMesh;
+use crate::support::watch::Watch;
+
+/// A method of smoothing with its options, for [`Smoother::apply`](super::Smoother::apply).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method<'a> {
+    /// [`Smoother::tikhonov`](super::Smoother::tikhonov).
+    Tikhonov(TikhonovOptions),
+    /// [`Smoother::interpolate`](super::Smoother::interpolate).
+    Interpolate(InterpolateOptions<'a>),
+    /// [`Smoother::least_squares`](super::Smoother::least_squares).
+    LeastSquares(LeastSquaresOptions<'a>),
+    /// [`Smoother::low_pass`](super::Smoother::low_pass).
+    LowPass(LowPassOptions),
+    /// [`Smoother::bilateral`](super::Smoother::bilateral).
+    Bilateral(BilateralOptions),
+}
+
+impl<'a> Method<'a> {
+    /// The method's name.
+    #[must_use]
+    pub fn name(&self) -> MethodName {
+        match self {
+            Self::Tikhonov(_) => MethodName::Tikhonov,
+            Self::Interpolate(_) => MethodName::Interpolate,
+            Self::LeastSquares(_) => MethodName::LeastSquares,
+            Self::LowPass(_) => MethodName::LowPass,
+            Self::Bilateral(_) => MethodName::Bilateral,
+        }
+    }
+
+    /// Values per vertex.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        match self {
+            Self::Tikhonov(options) => options.channels,
+            Self::Interpolate(options) => options.channels,
+            Self::LeastSquares(options) => options.channels,
+            Self::LowPass(options) => options.channels,
+            Self::Bilateral(options) => options.channels,
+        }
+    }
+
+    /// What NaN means.
+    #[must_use]
+    pub fn missing(&self) -> Missing {
+        match self {
+            Self::Tikhonov(options) => options.missing,
+            Self::Interpolate(options) => options.missing,
+            Self::LeastSquares(options) => options.missing,
+            Self::LowPass(options) => options.missing,
+            Self::Bilateral(options) => options.missing,
+        }
+    }
+
+    fn constraints(&self) -> Option<&Constraints<'a>> {
+        match self {
+            Self::Interpolate(options) => Some(&options.constraints),
+            Self::LeastSquares(options) => Some(&options.constraints),
+            _ => None,
+        }
+    }
+
+    /// The same with other constraints.
+    fn with_features<'b>(self, features: Features<'b>) -> Method<'b>
+    where
+        'a: 'b,
+    {
+        match self {
+            Self::Interpolate(options) => {
+                let constraints = Constraints { features, ..options.constraints };
+                Method::Interpolate(InterpolateOptions { constraints, ..options })
+            }
+            Self::LeastSquares(options) => {
+                let constraints = Constraints { features, ..options.constraints };
+                Method::LeastSquares(LeastSquaresOptions { constraints, ..options })
+            }
+            other => other,
+        }
+    }
+
+    /// Checks what can be told from the options alone.
+    ///
+    /// # Errors
+    /// `InvalidOption`, `InapplicableOption`.
+    fn check(&self, smoother: SmootherOptions) -> Result<(), OptionError> {
+        match self {
+            Self::Tikhonov(options) => tikhonov::check(options, smoother)?,
+            Self::Interpolate(_) => {}
+            Self::LeastSquares(options) => tikhonov::check_epsilon(options.epsilon)?,
+            Self::LowPass(options) => low_pass::check(options)?,
+            Self::Bilateral(options) => bilateral::check(options)?,
+        }
+        if self.missing() == Missing::Fill && matches!(self, Self::LowPass(_) | Self::Bilateral(_)) {
+            let reason = "filters cannot fill in missing values".to_owned();
+            return Err(OptionError::InapplicableOption { option: "missing".to_owned(), reason });
+        }
+        Ok(())
+    }
+
+    fn start(&self, input: &Input<'_>, systems: &mut Systems, watch: &Watch<'_>) -> Result<Smoothed> {
+        match self {
+            Self::Tikhonov(options) => tikhonov::start(input, systems, options, watch),
+            Self::Interpolate(options) => interpolate::start(input, systems, options, watch),
+            Self::LeastSquares(options) => least_squares::start(input, systems, options, watch),
+            Self::LowPass(options) => low_pass::start(input, options, watch),
+            Self::Bilateral(options) => bilateral::start(input, options, watch),
+        }
+    }
+}
+
+/// The part of the mesh with values that the last call had, and its systems.
+#[derive(Debug, Default)]
+pub(super) struct Masked(Option<Mask>);
+
+#[derive(Debug)]
+struct Mask {
+    missing: Arc<[u32]>,
+    /// Nothing where no triangle has three values.
+    part: Option<Part>,
+    systems: Systems,
+}
+
+impl Masked {
+    /// That of these missing vertices.
+    fn get(&mut self, mesh: &TriMesh, missing: &[u32], options: SmootherOptions) -> Result<&mut Mask> {
+        if self.0.as_ref().is_some_and(|mask| *mask.missing != *missing) {
+            self.0 = None;
+        }
+        match &mut self.0 {
+            Some(mask) => Ok(mask),
+            none => {
+                let part = match Part::without(mesh, missing, options) {
+                    Err(Error::Mesh(MeshError::EmptyMesh { .. })) => None,
+                    part => Some(part?),
+                };
+                Ok(none.insert(Mask { missing: missing.into(), part, systems: Systems::default() }))
+            }
+        }
+    }
+}
+
+/// Smooths by a method, with what is missing left out or filled in as its options say.
+pub(super) fn apply(
+    operators: &Operators,
+    systems: &mut Systems,
+    masked: &mut Masked,
+    values: &[f64],
+    method: &Method<'_>,
+    watch: &Watch<'_>,
+) -> Result<Smoothed> {
+    method.check(operators.options)?;
+    let (mesh, channels) = (&operators.mesh, method.channels());
+    let missing = match method.missing() {
+        Missing::Error => Vec::new(),
+        Missing::Omit | Missing::Fill => missing_vertices(mesh, values, channels)?,
+    };
+    if missing.is_empty() {
+        let input = Input { operators, channels: Channels::new(mesh, values, channels, None)?, gaps: None };
+        return method.start(&input, systems, watch);
+    }
+    let mask = masked.get(mesh, &missing, operators.options)?;
+    if method.missing() == Missing::Fill {
+        let gaps = Gaps { missing: Arc::clone(&mask.missing), known: mask.part.as_ref() };
+        let channels = Channels::new(mesh, values, channels, Some(&gaps))?;
+        return method.start(&Input { operators, channels, gaps: Some(gaps) }, systems, watch);
+    }
+    let Some(part) = &mask.part else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
+    let listed = match method.constraints() {
+        Some(Constraints { features: Features::Vertices(vertices), .. }) => {
+            Some(part.find(vertices, mesh.vertex_count())?)
+        }
+        _ => None,
+    };
+    let method = listed.as_ref().map_or(*method, |vertices| method.with_features(Features::Vertices(vertices)));
+    let of_part = part.gather(values, channels);
+    let channels_of_part = Channels::new(&part.operators.mesh, &of_part, channels, None)?;
+    let input = Input { operators: &part.operators, channels: channels_of_part, gaps: None };
+    let smoothed = method.start(&input, &mut mask.systems, watch).map_err(|error| to_whole(&part.vertices, error))?;
+    let mut whole = values.to_vec();
+    part.scatter(&smoothed.values, channels, &mut whole);
+    Ok(Smoothed { values: whole, reports: smoothed.reports })
+}

@@ -1,0 +1,45 @@
+//! The methods: the options of each, and what is specific to it.
+
+pub(super) mod bilateral;
+mod grid;
+pub(super) mod interpolate;
+pub(super) mod least_squares;
+pub(super) mod low_pass;
+mod regularized;
+pub(super) mod tikhonov;
+
+pub use bilateral::BilateralOptions;
+pub use interpolate::InterpolateOptions;
+pub use least_squares::LeastSquaresOptions;
+pub use low_pass::LowPassOptions;
+pub use tikhonov::{TikhonovOptions, epsilon_for_wavelength};
+
+use super::SmootherOptions;
+use super::channels::Channel;
+use super::report::SolverReport;
+use super::routes::SolverSettings;
+use super::run::Solution;
+use crate::error::OptionError;
+
+/// How systems are to be solved. Bounds are the same for all channels, and so are computed with the first ones.
+fn settings(options: SmootherOptions, is_first: bool) -> SolverSettings {
+    SolverSettings { choice: options.solver, precision: options.precision, bounds: options.bounds && is_first }
+}
+
+/// What a filter made of a channel.
+fn filtered(channel: &Channel, x: &[f64], iterations: usize) -> Solution {
+    // Scaling there and back rounds: what no step moved is not to change by that.
+    let moved = |&v: &u32| x[v as usize] != channel.normalized[v as usize];
+    let vertices: Vec<u32> = (0..x.len() as u32).filter(moved).collect();
+    let x = vertices.iter().map(|&v| x[v as usize]).collect();
+    Solution { vertices: vertices.into(), x, solver: SolverReport::none(iterations) }
+}
+
+/// # Errors
+/// `InvalidOption` where the option's value is not `valid`.
+fn require(valid: bool, option: &str, expected: &str) -> Result<(), OptionError> {
+    if valid {
+        return Ok(());
+    }
+    Err(OptionError::invalid(option, expected))
+}

@@ -1,0 +1,85 @@
+//! The one loop over channels that all methods share: solve, restore, measure.
+
+use std::sync::Arc;
+
+use super::channels::Channel;
+use super::constraints::level_constant_components;
+use super::input::Input;
+use super::report::{About, Facts, Measures, Smoothed, SolverReport, measure};
+use super::schedule::Stages;
+use crate::error::Result;
+use crate::support::watch::Phase;
+
+/// What finds the smooth values: a linear system, or the steps of a filter.
+///
+/// A family of all ε is no such procedure, as it has no values to return: it will be a function beside [`run`] that borrows the same
+/// system. An interior-point method is one, whose `solve` factors several times.
+pub(super) trait Procedure {
+    /// Finds the values of channels that are solved for together. `is_first`: whether they are the first ones, for which alone
+    /// bounds are computed.
+    fn solve(&mut self, group: &[Channel], is_first: bool, stages: &mut Stages<'_, '_>) -> Result<Found>;
+
+    /// What is measured of a result x with the input f, both normalised.
+    fn measures(&mut self, x: &[f64], f: &[f64]) -> Measures;
+}
+
+/// The values of some channels.
+pub(super) struct Found {
+    pub(super) solutions: Vec<Solution>,
+    /// See [`super::SmoothReport::perturbation_factor`].
+    pub(super) perturbation_factor: Option<f64>,
+}
+
+/// The values of one channel.
+pub(super) struct Solution {
+    /// The vertices that were solved for. All others keep their values to the last bit.
+    pub(super) vertices: Arc<[u32]>,
+    /// Their normalised values.
+    pub(super) x: Vec<f64>,
+    pub(super) solver: SolverReport,
+}
+
+/// Smooths all channels, some at a time.
+pub(super) fn run(
+    input: &Input<'_>,
+    about: &About,
+    procedure: &mut dyn Procedure,
+    mut stages: Stages<'_, '_>,
+) -> Result<Smoothed> {
+    let Input { operators, channels, .. } = input;
+    let unconstrained = about.unconstrained.as_ref();
+    let moved = unconstrained.map_or_else(Vec::new, |components| components.moved(&operators.active));
+    let mut interleaved = channels.to_interleaved();
+    let mut reports = Vec::with_capacity(channels.count());
+    let mut factor = None;
+    for (first, group) in channels.groups(&operators.mesh) {
+        let found = procedure.solve(&group, first == 0, &mut stages)?;
+        if first == 0 {
+            factor = found.perturbation_factor;
+        }
+        stages.begin(Phase::Report, 0)?;
+        for (c, (channel, solution)) in (first..).zip(group.iter().zip(found.solutions)) {
+            let mut x = channel.normalized.clone();
+            if let Some(components) = unconstrained {
+                components.write(&operators.active, &channel.values, &mut x);
+            }
+            for (&v, &value) in solution.vertices.iter().zip(&solution.x) {
+                x[v as usize] = value;
+            }
+            let mut values = channel.restored(&x, solution.vertices.iter().chain(&moved));
+            if let Some(set) = &about.constraints {
+                level_constant_components(&operators.active, set, channel, &mut x, &mut values);
+            }
+            let facts = Facts {
+                measures: procedure.measures(&x, &channel.normalized),
+                perturbation_factor: factor,
+                solver: solution.solver,
+            };
+            reports.push(measure(input, about, channel, &x, &values, facts, stages.watch)?);
+            channels.write(c, &values, &mut interleaved);
+        }
+        stages.next_group();
+    }
+    stages.finish()?;
+    Ok(Smoothed { values: interleaved, reports })
+}

@@ -1,0 +1,148 @@
+//! (LᵀWL + εB) x = εBf on the active vertices.
+
+use std::sync::Arc;
+
+use nalgebra_sparse::CscMatrix;
+
+use super::{Solved, on_mesh, solved};
+use crate::error::{Result, SmoothError};
+use crate::operators::{MassScale, lumped_mass_diagonal};
+use crate::smooth::Operator;
+use crate::smooth::channels::Channel;
+use crate::smooth::data_term::{DataTerm, Mass, Norm};
+use crate::smooth::operators::Operators;
+use crate::smooth::routes::{
+    DataPart, FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, Symmetry, Task,
+};
+use crate::smooth::schedule::{Stages, Work};
+use crate::solve::submatrix;
+
+/// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
+const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
+/// Everything about such a system that outlives one ε.
+///
+/// A family of all ε solves this system for one ε after the other, with right-hand sides of its own, on one analysis.
+#[derive(Debug)]
+pub(in crate::smooth) struct RegularizedSystem {
+    matrices: Matrices,
+    routes: Routes,
+}
+
+/// The matrices that the system is made from.
+#[derive(Debug)]
+struct Matrices {
+    /// The vertices that are unknowns, ascending.
+    unknowns: Arc<[u32]>,
+    /// L on the unknowns.
+    laplacian: CscMatrix<f64>,
+    /// The diagonal of W: the inverse lumped masses for the finite-element operator, nothing for the paper's.
+    weights: Option<Vec<f64>>,
+    is_symmetric: bool,
+    /// The data term, and its matrix B.
+    term: Arc<DataTerm>,
+    mass: Mass,
+}
+
+impl RegularizedSystem {
+    /// `unknowns`: ascending vertices that L ties to no others.
+    pub(in crate::smooth) fn new(operators: &Operators, unknowns: &[u32], term: &Arc<DataTerm>) -> Result<Self> {
+        let all = unknowns.len() == operators.laplacian.ncols();
+        let laplacian = if all { operators.laplacian.clone() } else { submatrix(&operators.laplacian, unknowns) };
+        let weights = match operators.options.operator {
+            Operator::Paper => None,
+            Operator::Fem => {
+                let areas = lumped_mass_diagonal(&operators.mesh, MassScale::Raw)?;
+                Some(unknowns.iter().map(|&v| areas[v as usize].recip()).collect())
+            }
+        };
+        let matrices = Matrices {
+            laplacian,
+            weights,
+            is_symmetric: operators.is_symmetric(),
+            mass: term.matrix(&operators.mesh, unknowns)?,
+            term: Arc::clone(term),
+            unknowns: unknowns.into(),
+        };
+        Ok(Self { matrices, routes: Routes::default() })
+    }
+
+    pub(in crate::smooth) fn unknowns(&self) -> &Arc<[u32]> {
+        &self.matrices.unknowns
+    }
+
+    /// B.
+    pub(in crate::smooth) fn mass(&self) -> &Mass {
+        &self.matrices.mass
+    }
+
+    /// Takes another data term; analyses stay.
+    pub(in crate::smooth) fn set_term(&mut self, operators: &Operators, term: &Arc<DataTerm>) -> Result<()> {
+        let matrices = &mut self.matrices;
+        if matrices.term != *term {
+            matrices.mass = term.matrix(&operators.mesh, &matrices.unknowns)?;
+            matrices.term = Arc::clone(term);
+        }
+        Ok(())
+    }
+
+    /// Gives the memory of the last factor back.
+    pub(in crate::smooth) fn drop_factor(&mut self) {
+        self.routes.drop_factors();
+    }
+
+    /// See [`Routes::forecast`].
+    pub(in crate::smooth) fn forecast(&self, epsilon: f64, settings: SolverSettings) -> (Work, bool, bool) {
+        self.routes.forecast(&self.matrices.problem(epsilon), &self.matrices.key(epsilon), settings)
+    }
+
+    /// Solves for every channel of normalised values.
+    pub(in crate::smooth) fn solve(
+        &mut self,
+        channels: &[Channel],
+        epsilon: f64,
+        settings: SolverSettings,
+        stages: &mut Stages<'_, '_>,
+    ) -> Result<Solved> {
+        let Self { matrices, routes } = self;
+        let unknowns = &matrices.unknowns;
+        let restrict = |channel: &Channel| RightHandSide {
+            field: unknowns.iter().map(|&v| channel.normalized[v as usize]).collect(),
+            offset: Vec::new(),
+        };
+        let right_hand_sides: Vec<RightHandSide> = channels.iter().map(restrict).collect();
+        let problem = matrices.problem(epsilon);
+        let heaviest = (0..unknowns.len()).map(|i| matrices.mass.diagonal(i)).fold(0.0, f64::max);
+        let scaled = problem.data().map_or(0.0, |data| data.scaled_epsilon());
+        if let Some(&column) = unknowns.first()
+            && scaled * heaviest < SMALLEST_WEIGHT
+        {
+            return Err(SmoothError::NotPositiveDefinite { column: column as usize }.into());
+        }
+        let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &right_hand_sides, settings };
+        let answer = routes.solve(&task, stages).map_err(|error| on_mesh(unknowns, error))?;
+        Ok(solved(&problem, &right_hand_sides, answer))
+    }
+}
+
+impl Matrices {
+    fn key(&self, epsilon: f64) -> FactorKey {
+        FactorKey::Regularized { epsilon, term: Arc::clone(&self.term) }
+    }
+
+    fn problem(&self, epsilon: f64) -> Problem<'_> {
+        let DataTerm { norm, missing } = &*self.term;
+        let is_inverse = match (&self.weights, norm) {
+            (None, Norm::Identity) | (Some(_), Norm::Lumped(MassScale::Raw)) => missing.is_empty(),
+            _ => false,
+        };
+        let symmetry = match (self.is_symmetric, is_inverse) {
+            (false, _) => Symmetry::Unsymmetric,
+            (true, false) => Symmetry::Symmetric,
+            (true, true) => Symmetry::Product,
+        };
+        let data = DataPart { mass: &self.mass, epsilon };
+        let form = Form::Regularized { weights: self.weights.as_deref(), data, symmetry };
+        Problem { matrix: &self.laplacian, form }
+    }
+}
