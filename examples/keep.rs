@@ -2,12 +2,12 @@
 //! `cargo run --release --example keep -- kept.ply`.
 #![allow(clippy::print_stdout, reason = "it is what the example is for")]
 
-use morse_smooth::{field::*, io::*, mesh, operators::LaplacianWeights, smooth::*};
+use morse_smooth::{field::*, io::*, load::*, operators::LaplacianWeights, smooth::*};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let output = std::env::args().skip(1).find(|argument| argument.ends_with(".ply"));
     let bytes = std::fs::read("www/public/examples/lysozyme_potential.ply")?;
-    let file = mesh::load(&bytes, &ReadOptions::default(), false)?;
+    let file = load(&bytes, &LoadOptions::default())?;
     let (name, field) = file.fields.first().ok_or("no field")?;
 
     let weights = LaplacianWeights::IntrinsicDelaunay;

@@ -1,9 +1,9 @@
 //! What a threshold leaves of the Morse complex is what simplification leaves of the field.
-use morse_smooth::{Watch, field::*, io::ReadOptions, mesh};
+use morse_smooth::{Watch, field::*, load::*};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read("www/public/examples/torus_irregular.ply")?;
-    let file = mesh::load(&bytes, &ReadOptions::default(), false)?;
+    let file = load(&bytes, &LoadOptions::default())?;
     let (_, values) = file.fields.iter().find(|(name, _)| name == "noisy").ok_or("no such field")?;
     let (field, watch) = (ScalarField::new(&file.mesh, values)?, Watch::none());
     let hierarchy = morse_hierarchy(&field, &watch)?;

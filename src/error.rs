@@ -613,4 +613,18 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// How many ids [`Diagnostic::examples`] holds at most.
     pub const EXAMPLES: usize = 8;
+
+    /// Adds a warning about the ids that were found, unless there are none. The message is told how many they are.
+    pub(crate) fn report(
+        warnings: &mut Vec<Self>,
+        code: &'static str,
+        ids: &mut dyn Iterator<Item = u32>,
+        message: &dyn Fn(usize) -> String,
+    ) {
+        let examples: Vec<u32> = ids.take(Self::EXAMPLES).collect();
+        let count = examples.len() + ids.count();
+        if count > 0 {
+            warnings.push(Self { code, message: message(count), count, examples });
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! Smooths a scalar field on a triangle mesh without losing the critical points that matter.
 //!
 //! The crate implements G. Patanè and B. Falcidieno, *Computing Smooth Approximations of Scalar Functions with
-//! Constraints* (\[Patane09\] in `references.md`). Data flows one way: [`io`] → [`mesh`] → [`operators`] and [`field`] →
-//! [`smooth`], with [`solve`] knowing matrices only.
+//! Constraints* (\[Patane09\] in `references.md`). Data flows one way: [`mesh`] → [`operators`] and [`field`] → [`smooth`],
+//! with [`solve`] knowing matrices only; [`mod@load`] makes meshes of the files that [`io`] reads.
 //!
 //! The kernels of [`solve`] are vectorised for the processor that the compiler is told: natively with
 //! `RUSTFLAGS="-C target-cpu=native"`, for WebAssembly with `-C target-feature=+simd128`. Results do not depend on that.
@@ -11,6 +11,7 @@
 pub mod error;
 pub mod field;
 pub mod io;
+pub mod load;
 pub mod mesh;
 pub mod operators;
 #[cfg(feature = "render")]
@@ -24,6 +25,7 @@ mod support;
 pub mod wasm;
 
 pub use error::{Diagnostic, Error, Result};
+pub use load::load;
 pub use mesh::TriMesh;
 pub use smooth::{Smoother, SmootherOptions};
 pub use support::watch::{Phase, Progress, Watch};

@@ -2,7 +2,6 @@
 
 mod connectivity;
 mod geometry;
-mod load;
 pub mod shapes;
 mod submesh;
 mod topology;
@@ -13,7 +12,6 @@ use std::sync::Arc;
 
 pub use connectivity::{Connectivity, LinkKind};
 pub(crate) use geometry::{cross, difference, dot, norm};
-pub use load::{LoadedMesh, load};
 pub use submesh::Submesh;
 pub use topology::MeshTopology;
 pub use weld::{Welded, weld};
@@ -68,11 +66,11 @@ impl TriMesh {
         let zero_area: Vec<u32> =
             areas.iter().enumerate().filter(|&(_, &area)| area == 0.0).map(|(t, _)| t as u32).collect();
         let mut warnings = checked.warnings;
-        validate::report(&mut warnings, "ZeroAreaTriangle", &zero_area, &|count| {
+        Diagnostic::report(&mut warnings, "ZeroAreaTriangle", &mut zero_area.iter().copied(), &|count| {
             format!("{count} triangles have zero area; they count for critical points, but not for the operators")
         });
         let isolated = connectivity.isolated_vertices();
-        validate::report(&mut warnings, "IsolatedVertex", &isolated, &|count| {
+        Diagnostic::report(&mut warnings, "IsolatedVertex", &mut isolated.iter().copied(), &|count| {
             format!("{count} vertices belong to no triangle; they are no critical points and keep their value")
         });
         let area = areas.iter().sum();

@@ -48,10 +48,10 @@ pub(super) fn check(positions: &[f64], triangles: &[u32]) -> Result<Checked, Mes
         return Err(MeshError::EmptyMesh { vertices: n, triangles: kept.len() });
     }
     let mut warnings = Vec::new();
-    report(&mut warnings, "DegenerateTriangle", &repeated_ids, &|count| {
+    Diagnostic::report(&mut warnings, "DegenerateTriangle", &mut repeated_ids.iter().copied(), &|count| {
         format!("{count} triangles name a vertex twice and were left out")
     });
-    report(&mut warnings, "DuplicateTriangle", &duplicate_ids, &|count| {
+    Diagnostic::report(&mut warnings, "DuplicateTriangle", &mut duplicate_ids.iter().copied(), &|count| {
         format!("{count} triangles repeat another one and were left out")
     });
     Ok(Checked { triangles: kept, repeated_id_triangles: repeated_ids.len(), warnings })
@@ -74,19 +74,6 @@ pub(super) fn check_positions(positions: &[f64]) -> Result<(), MeshError> {
         }
     }
     Ok(())
-}
-
-/// Adds a warning unless there is nothing to warn of.
-pub(super) fn report(
-    warnings: &mut Vec<Diagnostic>,
-    code: &'static str,
-    ids: &[u32],
-    message: &dyn Fn(usize) -> String,
-) {
-    if !ids.is_empty() {
-        let examples = ids.iter().copied().take(Diagnostic::EXAMPLES).collect();
-        warnings.push(Diagnostic { code, message: message(ids.len()), count: ids.len(), examples });
-    }
 }
 
 /// For every triangle whether an earlier one has the same vertices.

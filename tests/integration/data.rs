@@ -9,8 +9,9 @@ use morse_smooth::Error;
 use morse_smooth::field::{
     CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, value_range,
 };
-use morse_smooth::io::{FieldReadOptions, ReadOptions, read_field};
-use morse_smooth::mesh::{LoadedMesh, TriMesh, load};
+use morse_smooth::io::{FieldReadOptions, read_field};
+use morse_smooth::load::{LoadOptions, LoadedMesh, load};
+use morse_smooth::mesh::TriMesh;
 use morse_smooth::operators::MassScale;
 use morse_smooth::smooth::{
     Constraints, Energy, InterpolateOptions, LeastSquaresOptions, Metric, Smoothed, Smoother, SmootherOptions,
@@ -285,7 +286,7 @@ fn check_smoothing(
 
 fn read(folder: &Path, file: &str) -> LoadedMesh {
     let bytes = std::fs::read(folder.join(file)).expect("a file of the data folder");
-    load(&bytes, &ReadOptions::default(), false).expect("a mesh")
+    load(&bytes, &LoadOptions::default()).expect("a mesh")
 }
 
 /// A field of the mesh file, or the text file beside it.

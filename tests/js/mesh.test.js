@@ -134,7 +134,7 @@ describe('refused', () => {
     ['bigints', new BigInt64Array(12), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['a DataView', new DataView(new ArrayBuffer(96)), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['an object like an array', { length: 12 }, triangles, 'InvalidArgument', { argument: 'positions' }],
-    ['signed ids', positions, new Int32Array(12), 'InvalidArgument', { argument: 'triangles' }],
+    ['big integers as ids', positions, new BigInt64Array(12), 'InvalidArgument', { argument: 'triangles' }],
     [
       'a string among numbers',
       positions.with(4, '1'),

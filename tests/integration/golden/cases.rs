@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use morse_smooth::field::{Missing, Threshold};
-use morse_smooth::io::ReadOptions;
-use morse_smooth::mesh;
+use morse_smooth::load::{LoadOptions, load};
 use morse_smooth::render::{
     Camera, Colormap, DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, SnapshotOptions, sheet, snapshot,
 };
@@ -34,7 +33,7 @@ pub(super) fn read(folder: &Path) -> Vec<Case> {
 impl Case {
     pub(super) fn draw(&self, folder: &Path) -> Vec<u8> {
         let bytes = std::fs::read(folder.join(format!("{}.ply", self.mesh))).expect("a mesh");
-        let file = mesh::load(&bytes, &ReadOptions::default(), false).expect("a mesh");
+        let file = load(&bytes, &LoadOptions::default()).expect("a mesh");
         let field =
             |name: &String| &file.fields.iter().find(|(known, _)| known == name).expect("a field of that name").1;
         let levels = self.options.get("levels").and_then(Value::as_array).map(|list| numbers(list)).unwrap_or_default();

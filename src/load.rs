@@ -1,0 +1,68 @@
+//! From the bytes of a file to a checked mesh with its fields.
+
+use crate::error::{Diagnostic, Result};
+use crate::io::{self, MeshFormat, ReadOptions};
+use crate::mesh::{TriMesh, weld};
+
+/// How to load a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LoadOptions {
+    /// How to read the file. Default: the format comes from the content.
+    pub read: ReadOptions,
+    /// Whether vertices at identical positions are joined, each with the first of their values. Default false.
+    pub weld: bool,
+}
+
+/// A mesh read from a file.
+#[derive(Debug, Clone)]
+pub struct LoadedMesh {
+    /// The mesh.
+    pub mesh: TriMesh,
+    /// Scalar fields by name, one value per vertex of the mesh. They are as the file has them: NaN and infinity leave a
+    /// warning and are refused where the field is used, so that one bad field does not hide the others.
+    pub fields: Vec<(String, Vec<f64>)>,
+    /// The format read.
+    pub format: MeshFormat,
+    /// What was skipped or put right, from the file and from the mesh.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Reads a mesh file, joins vertices where that is asked for, and checks the mesh.
+///
+/// # Errors
+/// Those of [`io::read_mesh`], [`weld`] and [`TriMesh::new`].
+///
+/// # Example
+/// ```
+/// use morse_smooth::load::{LoadOptions, load};
+/// let file = b"OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+/// let loaded = load(file, &LoadOptions::default())?;
+/// assert_eq!((loaded.mesh.area(), loaded.format.name()), (1.0, "off"));
+/// # Ok::<(), morse_smooth::Error>(())
+/// ```
+pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
+    let data = io::read_mesh(bytes, &options.read)?;
+    let mut warnings = data.warnings;
+    let mut fields = data.fields;
+    let mesh = if options.weld {
+        let joined = weld(&data.positions, &data.triangles)?;
+        for (name, values) in &mut fields {
+            let (one_each, disagreeing) = joined.field(values);
+            *values = one_each;
+            Diagnostic::report(&mut warnings, "WeldedValues", &mut disagreeing.iter().copied(), &|count| {
+                format!("{count} welded vertices had several values of `{name}`; the first was kept")
+            });
+        }
+        TriMesh::new(joined.positions, joined.triangles)?
+    } else {
+        TriMesh::new(data.positions, data.triangles)?
+    };
+    for (name, values) in &fields {
+        let not_finite = (0_u32..).zip(values).filter(|(_, value)| !value.is_finite()).map(|(vertex, _)| vertex);
+        Diagnostic::report(&mut warnings, "NonFiniteValue", &mut { not_finite }, &|count| {
+            format!("{count} values of `{name}` are not finite; using the field will fail")
+        });
+    }
+    warnings.extend_from_slice(mesh.warnings());
+    Ok(LoadedMesh { mesh, fields, format: data.format, warnings })
+}
