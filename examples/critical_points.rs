@@ -18,6 +18,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Each saddle as often as its multiplicity says.
     let CriticalCounts { minima, saddles, maxima, .. } = found.counts;
     let sum = i64::from(minima) - i64::from(saddles) + i64::from(maxima);
-    assert_eq!(sum, file.mesh.topology().euler_characteristic);
+    assert_eq!(sum, file.mesh.topology()?.euler_characteristic);
     Ok(())
 }

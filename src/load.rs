@@ -2,15 +2,15 @@
 
 use crate::error::{Diagnostic, Result};
 use crate::io::{self, MeshFormat, ReadOptions};
-use crate::mesh::{TriMesh, weld};
+use crate::mesh::{TriMesh, WeldOptions, weld};
 
 /// How to load a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadOptions {
     /// How to read the file. Default: the format comes from the content.
     pub read: ReadOptions,
-    /// Whether vertices at identical positions are joined, each with the first of their values. Default false.
-    pub weld: bool,
+    /// Whether vertices that lie together are joined, and up to which distance. Default: they are not.
+    pub weld: Option<WeldOptions>,
 }
 
 /// A mesh read from a file.
@@ -23,11 +23,16 @@ pub struct LoadedMesh {
     pub fields: Vec<(String, Vec<f64>)>,
     /// The format read.
     pub format: MeshFormat,
+    /// For every vertex of the file the vertex of the mesh that it became; none where they are the same.
+    pub vertex_map: Option<Vec<u32>>,
     /// What was skipped or put right, from the file and from the mesh.
     pub warnings: Vec<Diagnostic>,
 }
 
 /// Reads a mesh file, joins vertices where that is asked for, and checks the mesh.
+///
+/// Fields are carried along as [`Welded::field`](crate::mesh::Welded::field) says. Warnings, besides those of [`io::read_mesh`] and
+/// [`TriMesh::new`]: `WeldedValues` where joined vertices had different values, `NonFiniteValue`.
 ///
 /// # Errors
 /// Those of [`io::read_mesh`], [`weld`] and [`TriMesh::new`].
@@ -44,19 +49,22 @@ pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
     let data = io::read_mesh(bytes, &options.read)?;
     let mut warnings = data.warnings;
     let mut fields = data.fields;
-    let mesh = if options.weld {
-        let joined = weld(&data.positions, &data.triangles)?;
-        for (name, values) in &mut fields {
-            let (one_each, disagreeing) = joined.field(values);
-            *values = one_each;
-            Diagnostic::report(&mut warnings, "WeldedValues", &mut disagreeing.iter().copied(), &|count| {
-                format!("{count} welded vertices had several values of `{name}`; the first was kept")
-            });
+    let (mut positions, mut triangles, mut vertex_map) = (data.positions, data.triangles, None);
+    if let Some(options) = &options.weld {
+        let welded = weld(&positions, Some(&triangles), options)?;
+        if welded.joins_any() {
+            for (name, values) in &mut fields {
+                let one_each = welded.field(values)?;
+                *values = one_each.values;
+                let mut disagreeing = one_each.disagreeing.into_iter();
+                Diagnostic::report(&mut warnings, "WeldedValues", &mut disagreeing, &|count| {
+                    format!("{count} welded vertices had several values of `{name}`; their mean was taken")
+                });
+            }
+            (positions, triangles, vertex_map) = (welded.positions, welded.triangles, Some(welded.map));
         }
-        TriMesh::new(joined.positions, joined.triangles)?
-    } else {
-        TriMesh::new(data.positions, data.triangles)?
-    };
+    }
+    let mesh = TriMesh::new(positions, triangles)?;
     for (name, values) in &fields {
         let not_finite = (0_u32..).zip(values).filter(|(_, value)| !value.is_finite()).map(|(vertex, _)| vertex);
         Diagnostic::report(&mut warnings, "NonFiniteValue", &mut { not_finite }, &|count| {
@@ -64,5 +72,5 @@ pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
         });
     }
     warnings.extend_from_slice(mesh.warnings());
-    Ok(LoadedMesh { mesh, fields, format: data.format, warnings })
+    Ok(LoadedMesh { mesh, fields, format: data.format, vertex_map, warnings })
 }

@@ -39,7 +39,7 @@ pub(crate) struct Accuracy {
 
 impl Accuracy {
     pub(crate) fn new(mesh: TriMesh) -> Self {
-        let laplacian = cotan_laplacian(&mesh);
+        let laplacian = cotan_laplacian(&mesh).expect("enough memory");
         let analyze = |matrix: &CscMatrix<f64>| Analysis::new(matrix.pattern().clone(), &order(matrix.pattern()));
         let squared = gram(&laplacian, &Watch::none()).expect("it fits");
         let analysis = analyze(&squared);

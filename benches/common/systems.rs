@@ -64,7 +64,7 @@ pub(crate) struct System {
 
 impl System {
     pub(crate) fn new(mesh: &TriMesh, kind: Kind, epsilon: f64) -> Self {
-        let laplacian = cotan_laplacian(mesh);
+        let laplacian = cotan_laplacian(mesh).expect("enough memory");
         let n = mesh.vertex_count();
         let fields: Vec<f64> = (0..COLUMNS as u64).flat_map(|column| field(mesh, column)).collect();
         let (matrix, positions, right_hand_sides) = match kind {
@@ -126,7 +126,7 @@ fn unknowns_of_interpolation(mesh: &TriMesh) -> Vec<u32> {
     /// On a regular mesh, n/166 vertices that far apart find room in random order.
     const APART: u32 = 10;
     let n = mesh.vertex_count();
-    let neighbours = cotan_laplacian(mesh).into_pattern_and_values().0;
+    let neighbours = cotan_laplacian(mesh).expect("enough memory").into_pattern_and_values().0;
     let mut order: Vec<u32> = (0..n as u32).collect();
     let mut random = Random::new(0);
     for i in (1..n).rev() {

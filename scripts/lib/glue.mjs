@@ -57,6 +57,7 @@ ${body}
 /** Lets go of an instance that is no longer to be trusted: objects that are collected later free nothing. */
 function abandon() {
   wasm = new Proxy({}, { get: () => () => undefined });
+  wasmModule = wasmInstance = undefined;
   ${caches.map((name) => `${name} = `).join('')}null;
 }
 return { ${exported.join(', ')}, abandon };

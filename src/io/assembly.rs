@@ -1,6 +1,6 @@
 //! What the readers share: faces become triangles, fields get unique names, what is left out becomes a warning.
 
-use super::scan::reserve;
+use super::scan::{push, reserve, room};
 use super::{MeshData, MeshFormat};
 use crate::error::{Diagnostic, ParseError};
 
@@ -49,20 +49,18 @@ impl Assembly {
     #[inline(never)]
     pub(super) fn corner(&mut self, index: i64, vertices: u64) -> Result<(), ParseError> {
         match u32::try_from(index) {
-            Ok(corner) if u64::from(corner) < vertices => {
-                self.corners.push(corner);
-                Ok(())
-            }
+            Ok(corner) if u64::from(corner) < vertices => push(&mut self.corners, corner),
             _ => Err(ParseError::FaceIndexOutOfBounds { face: self.faces, index, vertices }),
         }
     }
 
     /// Ends a polygon: a fan around its first corner.
     #[inline(never)]
-    pub(super) fn close_polygon(&mut self) {
+    pub(super) fn close_polygon(&mut self) -> Result<(), ParseError> {
         match self.corners.as_slice() {
             [] | [_] | [_, _] => self.short.add(self.faces),
             [first, others @ ..] => {
+                room(&mut self.triangles, 3 * (others.len() - 1))?;
                 for pair in others.windows(2) {
                     self.triangles.extend([*first, pair[0], pair[1]]);
                 }
@@ -73,19 +71,22 @@ impl Assembly {
         }
         self.faces += 1;
         self.corners.clear();
+        Ok(())
     }
 
     /// Ends a triangle strip: every second triangle is turned round, so that all look the same way.
-    pub(super) fn close_strip(&mut self) {
+    pub(super) fn close_strip(&mut self) -> Result<(), ParseError> {
         if self.corners.len() < 3 {
             self.short.add(self.faces);
         }
+        room(&mut self.triangles, 3 * self.corners.len().saturating_sub(2))?;
         for (place, corners) in self.corners.windows(3).enumerate() {
             let [a, b] = if place % 2 == 0 { [corners[0], corners[1]] } else { [corners[1], corners[0]] };
             self.triangles.extend([a, b, corners[2]]);
         }
         self.faces += 1;
         self.corners.clear();
+        Ok(())
     }
 
     /// Adds a field; a name that was there before gets a number.

@@ -20,9 +20,10 @@ pub use table::{Column, FieldFormat, FieldReadOptions, read_field};
 pub use write::{WriteOptions, write_mesh};
 
 use crate::error::{Diagnostic, ParseError};
+use crate::support::named::named;
 use scan::Scanner;
 
-/// A file format for meshes.
+/// A file format for meshes. Its name is also the usual ending of its files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshFormat {
@@ -44,30 +45,11 @@ pub enum MeshFormat {
     Asc,
 }
 
+named! { MeshFormat any case {
+    Obj = "obj", Off = "off", Ply = "ply", Stl = "stl", Vtk = "vtk", Vtp = "vtp", Glb = "glb", Asc = "asc",
+} }
+
 impl MeshFormat {
-    const ALL: [Self; 8] = [Self::Obj, Self::Off, Self::Ply, Self::Stl, Self::Vtk, Self::Vtp, Self::Glb, Self::Asc];
-
-    /// The format's name, which is also the usual ending of its files: `"obj"`, `"off"`, …
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "obj",
-            Self::Off => "off",
-            Self::Ply => "ply",
-            Self::Stl => "stl",
-            Self::Vtk => "vtk",
-            Self::Vtp => "vtp",
-            Self::Glb => "glb",
-            Self::Asc => "asc",
-        }
-    }
-
-    /// The format of a name such as `"ply"`, in upper or lower case.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
-    }
-
     fn unsupported(self) -> ParseError {
         ParseError::UnsupportedFormat { format: self.name().to_owned() }
     }

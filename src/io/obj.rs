@@ -1,7 +1,7 @@
 //! Wavefront OBJ: `v` and `f` rows; ids count from 1, negative ones back from the last vertex. Text only.
 
 use super::assembly::{Assembly, check_count};
-use super::scan::{Scanner, excerpt, parse_integer, parse_number};
+use super::scan::{Scanner, excerpt, parse_integer, parse_number, push};
 use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 
@@ -66,7 +66,7 @@ fn read_vertex(text: &mut Scanner<'_>, assembly: &mut Assembly) -> Result<bool, 
         let Some(word) = text.word_in_row() else {
             return Err(text.syntax("a vertex needs three coordinates"));
         };
-        assembly.positions.push(parse_number(word).ok_or_else(|| text.invalid_number(word))?);
+        push(&mut assembly.positions, parse_number(word).ok_or_else(|| text.invalid_number(word))?)?;
     }
     Ok(text.word_in_row().is_some())
 }
@@ -92,6 +92,5 @@ fn read_face(text: &mut Scanner<'_>, assembly: &mut Assembly, largest: &mut Larg
         // Whether the vertex exists is known at the end of the file only.
         assembly.corner(corner, u64::from(u32::MAX))?;
     }
-    assembly.close_polygon();
-    Ok(())
+    assembly.close_polygon()
 }

@@ -97,7 +97,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
             let corner = parse_integer(word).ok_or_else(|| text.invalid_number(word))?;
             assembly.corner(corner, vertices)?;
         }
-        assembly.close_polygon();
+        assembly.close_polygon()?;
         coloured_faces += u64::from(text.word_in_row().is_some());
         text.rest_of_line();
     }

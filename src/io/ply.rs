@@ -366,7 +366,7 @@ fn read_faces(
             }
         }
         rows.end()?;
-        assembly.close_polygon();
+        assembly.close_polygon()?;
     }
     for (_, property) in element.properties.iter().enumerate().filter(|(place, _)| *place != corners) {
         assembly.skipped(format!("property `{}` of the faces", property.name), element.count);

@@ -5,6 +5,7 @@
 use lexical_parse_float::FromLexical;
 
 use crate::error::ParseError;
+use crate::support::memory;
 
 /// Longest piece of the input that an error message repeats.
 const EXCERPT: usize = 40;
@@ -284,11 +285,35 @@ pub(super) fn require(expected: u64, available: usize) -> Result<(), ParseError>
     Ok(())
 }
 
-/// Room for `additional` more, or an error instead of an abort.
+/// Room for `additional` more and no others, or an error instead of an abort.
 pub(super) fn reserve<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), ParseError> {
-    vector
-        .try_reserve_exact(additional)
-        .map_err(|_| ParseError::OutOfMemory { bytes: (additional as u64).saturating_mul(size_of::<T>() as u64) })
+    if additional <= vector.capacity() - vector.len() {
+        return Ok(());
+    }
+    let bytes = (vector.len() as u64 + additional as u64).saturating_mul(size_of::<T>() as u64);
+    memory::ensure(bytes)?;
+    vector.try_reserve_exact(additional).map_err(|_| ParseError::OutOfMemory { bytes })
+}
+
+/// Room for `additional` more, or an error instead of an abort. A vector that has to grow at all grows by half, so that many small
+/// additions take no more than linear time.
+#[inline]
+pub(super) fn room<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), ParseError> {
+    if additional <= vector.capacity() - vector.len() { Ok(()) } else { grow(vector, additional) }
+}
+
+#[cold]
+#[inline(never)]
+fn grow<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), ParseError> {
+    reserve(vector, additional.max(vector.len() / 2).max(64))
+}
+
+/// Adds an element, or fails where there is no memory for it.
+#[inline]
+pub(super) fn push<T>(vector: &mut Vec<T>, element: T) -> Result<(), ParseError> {
+    room(vector, 1)?;
+    vector.push(element);
+    Ok(())
 }
 
 #[cfg(test)]

@@ -2,8 +2,10 @@
 
 use csv_core::{ReadRecordResult, ReaderBuilder};
 
-use super::scan::{Scanner, excerpt, parse_number, without_byte_order_mark};
+use super::scan::{Scanner, excerpt, parse_number, push, reserve, without_byte_order_mark};
 use crate::error::ParseError;
+use crate::support::memory;
+use crate::support::named::named;
 
 /// A file format for fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,23 +19,7 @@ pub enum FieldFormat {
     Npy,
 }
 
-impl FieldFormat {
-    /// The format's name, as in the JavaScript API.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Txt => "txt",
-            Self::Csv => "csv",
-            Self::Npy => "npy",
-        }
-    }
-
-    /// The format of a name such as `csv`.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        [Self::Txt, Self::Csv, Self::Npy].into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
-    }
-}
+named! { FieldFormat any case { Txt = "txt", Csv = "csv", Npy = "npy" } }
 
 /// A column of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -115,7 +101,7 @@ fn read_numbers(bytes: &[u8]) -> Result<Vec<f64>, ParseError> {
     let mut text = Scanner::new(bytes).with_comments();
     let mut values = Vec::new();
     while let Some(word) = text.word() {
-        values.push(parse_number(word).ok_or_else(|| text.invalid_number(word))?);
+        push(&mut values, parse_number(word).ok_or_else(|| text.invalid_number(word))?)?;
     }
     if values.is_empty() {
         return Err(ParseError::MissingElement { element: "numbers".to_owned() });
@@ -136,16 +122,17 @@ fn read_column(bytes: &[u8], column: Option<&Column>) -> Result<Vec<f64>, ParseE
     let (place, header) = find_column(bytes, separator, column)?;
     let mut records = Records::new(bytes, separator);
     if header {
-        records.advance();
+        records.advance()?;
     }
     let mut values = Vec::new();
-    while records.advance() {
+    while records.advance()? {
         let Some(cell) = records.cell(place) else {
             let problem = format!("the record has {} cells, but column {place} is read (from 0)", records.len());
             return Err(ParseError::InvalidSyntax { line: records.line(), problem });
         };
         let value = parse_cell(cell, separator);
-        values.push(value.ok_or_else(|| ParseError::InvalidNumber { line: records.line(), text: excerpt(cell) })?);
+        let value = value.ok_or_else(|| ParseError::InvalidNumber { line: records.line(), text: excerpt(cell) })?;
+        push(&mut values, value)?;
     }
     if values.is_empty() {
         return Err(ParseError::MissingElement { element: "numbers".to_owned() });
@@ -156,9 +143,10 @@ fn read_column(bytes: &[u8], column: Option<&Column>) -> Result<Vec<f64>, ParseE
 /// Which column is read, and whether the first record is a header.
 fn find_column(bytes: &[u8], separator: u8, column: Option<&Column>) -> Result<(usize, bool), ParseError> {
     let mut records = Records::new(bytes, separator);
-    if !records.advance() {
+    if !records.advance()? {
         return Err(ParseError::MissingElement { element: "numbers".to_owned() });
     }
+    memory::ensure(64 * records.len() as u64 + records.cells.len() as u64)?;
     let first: Vec<Vec<u8>> = (0..records.len()).filter_map(|place| records.cell(place)).map(<[u8]>::to_vec).collect();
     let is_number = |cell: &[u8]| parse_cell(cell, separator).is_some();
     match column {
@@ -172,7 +160,7 @@ fn find_column(bytes: &[u8], separator: u8, column: Option<&Column>) -> Result<(
         },
         None => {
             // The second record cannot be a header, so it tells which columns hold numbers.
-            records.advance();
+            records.advance()?;
             match (0..records.len()).find(|&place| records.cell(place).is_some_and(is_number)) {
                 Some(place) => Ok((place, !first.get(place).is_some_and(|cell| is_number(cell)))),
                 None => match first.iter().position(|cell| is_number(cell)) {
@@ -217,6 +205,14 @@ fn parse_cell(cell: &[u8], separator: u8) -> Option<f64> {
     })
 }
 
+/// Makes a buffer twice as long.
+fn double<T: Clone + Default>(buffer: &mut Vec<T>) -> Result<(), ParseError> {
+    let length = buffer.len();
+    reserve(buffer, length)?;
+    buffer.resize(2 * length, T::default());
+    Ok(())
+}
+
 /// Walks through the records of a CSV file.
 struct Records<'a> {
     reader: csv_core::Reader,
@@ -237,7 +233,7 @@ impl<'a> Records<'a> {
     }
 
     /// Goes to the next record that is not empty; false at the end of the file, where the record has no cells.
-    fn advance(&mut self) -> bool {
+    fn advance(&mut self) -> Result<bool, ParseError> {
         let mut filled = 0;
         self.count = 0;
         loop {
@@ -252,12 +248,12 @@ impl<'a> Records<'a> {
             match result {
                 // Called again without input, the reader ends its last record.
                 ReadRecordResult::InputEmpty => {}
-                ReadRecordResult::OutputFull => self.cells.resize(self.cells.len() * 2, 0),
-                ReadRecordResult::OutputEndsFull => self.ends.resize(self.ends.len() * 2, 0),
-                ReadRecordResult::Record => return true,
+                ReadRecordResult::OutputFull => double(&mut self.cells)?,
+                ReadRecordResult::OutputEndsFull => double(&mut self.ends)?,
+                ReadRecordResult::Record => return Ok(true),
                 ReadRecordResult::End => {
                     self.count = 0;
-                    return false;
+                    return Ok(false);
                 }
             }
         }

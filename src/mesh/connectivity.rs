@@ -1,5 +1,9 @@
 //! How vertices, edges and triangles meet, without positions.
 
+use crate::error::OutOfMemory;
+use crate::support::counting_sort::{offsets, rewind};
+use crate::support::memory;
+
 /// What the triangles around a vertex look like: the shape of its link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkKind {
@@ -30,32 +34,47 @@ pub struct Connectivity {
 
 impl Connectivity {
     /// `triangles` must hold ids below `n`, no id twice in one triangle, no triangle twice: see `validate`.
-    pub(super) fn new(n: usize, triangles: Vec<[u32; 3]>) -> Self {
+    pub(super) fn new(n: usize, triangles: Vec<[u32; 3]>) -> Result<Self, OutOfMemory> {
         let (star_offsets, stars) = stars(n, &triangles);
+        let sizes = || star_offsets.windows(2).map(|pair| (pair[1] - pair[0]) as usize);
+        let referenced = sizes().filter(|&size| size > 0).count();
+        let largest_star = sizes().max().unwrap_or(0);
+        let (m, room) = (triangles.len(), edge_room(referenced, triangles.len()));
+        memory::ensure(24 * m as u64 + 12 * room as u64 + 16 * largest_star as u64)?;
         let mut this = Self {
-            edges: Vec::with_capacity(triangles.len() * 3 / 2),
-            triangle_edges: vec![[0; 3]; triangles.len()],
-            edge_offsets: vec![0],
-            edge_triangles: Vec::with_capacity(triangles.len() * 3),
+            edges: Vec::with_capacity(room),
+            triangle_edges: vec![[0; 3]; m],
+            edge_offsets: Vec::with_capacity(room + 1),
+            edge_triangles: Vec::with_capacity(m * 3),
             triangles,
             star_offsets,
             stars,
             link_kinds: Vec::new(),
             special: Vec::new(),
         };
-        this.build_edges(n);
+        this.build_edges(n, 2 * largest_star)?;
+        memory::ensure(10 * n as u64)?;
         this.link_kinds = this.classify_links();
-        this.special = (0..n as u32)
-            .filter(|&v| matches!(this.link_kinds[v as usize], LinkKind::Path | LinkKind::NonManifold))
-            .collect();
-        this
+        let is_special = |&v: &u32| matches!(this.link_kinds[v as usize], LinkKind::Path | LinkKind::NonManifold);
+        let mut special = Vec::with_capacity((0..n as u32).filter(is_special).count());
+        special.extend((0..n as u32).filter(is_special));
+        this.special = special;
+        Ok(this)
+    }
+
+    /// An estimate of the bytes that [`Connectivity::new`] takes, the triangles included.
+    pub(super) fn bytes(n: usize, m: usize) -> u64 {
+        // Triangles, their edges, their stars, the triangles of edges; edges and their offsets; offsets of stars, links, special
+        // vertices, and two lists that only their classification needs.
+        48 * m as u64 + 12 * edge_room(n, m) as u64 + 14 * n as u64
     }
 
     /// Collects the half-edges of every vertex that lead to a larger id, sorted by that id, so that edges come out in
     /// lexicographic order without a global sort.
-    fn build_edges(&mut self, n: usize) {
+    fn build_edges(&mut self, n: usize, most_at_a_vertex: usize) -> Result<(), OutOfMemory> {
         // The id at the other end above, the half-edge below: one integer sorts faster than a pair.
-        let mut half_edges: Vec<u64> = Vec::new();
+        let mut half_edges: Vec<u64> = Vec::with_capacity(most_at_a_vertex);
+        self.edge_offsets.push(0);
         let packed = |end: u32, half_edge: u32| u64::from(end) << 32 | u64::from(half_edge);
         for v in 0..n as u32 {
             half_edges.clear();
@@ -73,6 +92,9 @@ impl Connectivity {
             half_edges.sort_unstable();
             for group in half_edges.chunk_by(|a, b| a >> 32 == b >> 32) {
                 let edge = self.edges.len() as u32;
+                if self.edges.len() == self.edges.capacity() {
+                    self.make_room_for_edges()?;
+                }
                 self.edges.push([v, (group[0] >> 32) as u32]);
                 for &packed in group {
                     let half_edge = packed as u32;
@@ -82,6 +104,17 @@ impl Connectivity {
                 self.edge_offsets.push(self.edge_triangles.len() as u32);
             }
         }
+        Ok(())
+    }
+
+    /// Room for more edges than were expected, in small steps: only surfaces with handles and holes come here, and few times.
+    #[cold]
+    fn make_room_for_edges(&mut self) -> Result<(), OutOfMemory> {
+        let more = self.edges.len() / 16 + 64;
+        memory::ensure(12 * (self.edges.len() + more) as u64)?;
+        self.edges.reserve_exact(more);
+        self.edge_offsets.reserve_exact(more);
+        Ok(())
     }
 
     fn classify_links(&self) -> Vec<LinkKind> {
@@ -239,23 +272,24 @@ fn star_of<'a>(offsets: &[u32], stars: &'a [u32], vertex: u32) -> &'a [u32] {
     &stars[offsets[vertex as usize] as usize..offsets[vertex as usize + 1] as usize]
 }
 
+/// How many edges a mesh probably has. Euler's formula gives no less for surfaces with at most one handle, which may have
+/// boundaries, and three half-edges to two edges for all that are closed; no mesh has more than half-edges.
+fn edge_room(vertices: usize, triangles: usize) -> usize {
+    let half_edges = 3 * triangles;
+    half_edges.div_ceil(2).max(vertices + triangles).min(half_edges)
+}
+
 /// Triangles of every vertex by a counting sort.
 fn stars(n: usize, triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
-    let mut offsets = vec![0_u32; n + 1];
-    for &v in triangles.iter().flatten() {
-        offsets[v as usize + 1] += 1;
-    }
-    for v in 0..n {
-        offsets[v + 1] += offsets[v];
-    }
-    let mut next = offsets.clone();
+    let mut offsets = offsets(n, &mut triangles.as_flattened().iter().copied());
     let mut stars = vec![0_u32; triangles.len() * 3];
     for (t, corners) in triangles.iter().enumerate() {
         for &v in corners {
-            let place = &mut next[v as usize];
+            let place = &mut offsets[v as usize];
             stars[*place as usize] = t as u32;
             *place += 1;
         }
     }
+    rewind(&mut offsets);
     (offsets, stars)
 }

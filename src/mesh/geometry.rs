@@ -34,6 +34,21 @@ pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
+/// The diagonal of the bounding box of some positions.
+pub(super) fn diagonal(positions: &[f64]) -> f64 {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for point in positions.chunks_exact(3) {
+        for axis in 0..3 {
+            bounds[0][axis] = bounds[0][axis].min(point[axis]);
+            bounds[1][axis] = bounds[1][axis].max(point[axis]);
+        }
+    }
+    let sides = difference(bounds[1], bounds[0]);
+    let longest = sides[0].max(sides[1]).max(sides[2]);
+    // The squares of very small sides would be zero.
+    if longest > 0.0 { longest * norm(sides.map(|side| side / longest)) } else { 0.0 }
+}
+
 /// Areas of the triangles, exactly zero for those whose corners lie on one line up to rounding.
 pub(super) fn areas(positions: &[f64], triangles: &[[u32; 3]]) -> Vec<f64> {
     triangles

@@ -14,9 +14,10 @@ pub use connectivity::{Connectivity, LinkKind};
 pub(crate) use geometry::{cross, difference, dot, norm};
 pub use submesh::Submesh;
 pub use topology::MeshTopology;
-pub use weld::{Welded, weld};
+pub use weld::{WeldOptions, Welded, WeldedField, weld};
 
 use crate::error::{Diagnostic, MeshError};
+use crate::support::memory;
 
 /// A checked, immutable triangle mesh: any simplicial complex of triangles, closed or open, manifold or not, in one or
 /// several components. Cloning is cheap: the data is shared.
@@ -57,23 +58,31 @@ impl TriMesh {
     ///
     /// # Errors
     /// `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`, `PositionOverflow`,
-    /// `IndexOutOfBounds`, and `EmptyMesh` where no vertex or no usable triangle is there.
+    /// `IndexOutOfBounds`, `OutOfMemory`, and `EmptyMesh` where no vertex or no usable triangle is there.
     pub fn new(positions: Vec<f64>, triangles: Vec<u32>) -> Result<Self, MeshError> {
-        let checked = validate::check(&positions, &triangles)?;
+        let n = positions.len() / 3;
+        validate::check_positions(&positions)?;
+        validate::check_ids(&triangles, n)?;
+        let m = triangles.len() / 3;
+        // The areas come last, when what the checks took is free again.
+        memory::ensure(Connectivity::bytes(n, m) + 8 * m as u64)?;
+        let checked = validate::check(n, &triangles)?;
         drop(triangles);
-        let connectivity = Connectivity::new(positions.len() / 3, checked.triangles);
+        let connectivity = Connectivity::new(n, checked.triangles)?;
         let areas = geometry::areas(&positions, connectivity.triangles());
-        let zero_area: Vec<u32> =
-            areas.iter().enumerate().filter(|&(_, &area)| area == 0.0).map(|(t, _)| t as u32).collect();
+        let has_no_area = || areas.iter().map(|&area| area == 0.0);
         let mut warnings = checked.warnings;
-        Diagnostic::report(&mut warnings, "ZeroAreaTriangle", &mut zero_area.iter().copied(), &|count| {
+        let mut zero_area = (0_u32..).zip(has_no_area()).filter(|&(_, has_none)| has_none).map(|(t, _)| t);
+        Diagnostic::report(&mut warnings, "ZeroAreaTriangle", &mut zero_area, &|count| {
             format!("{count} triangles have zero area; they count for critical points, but not for the operators")
         });
-        let isolated = connectivity.isolated_vertices();
-        Diagnostic::report(&mut warnings, "IsolatedVertex", &mut isolated.iter().copied(), &|count| {
+        let is_isolated = connectivity.link_kinds().iter().map(|&kind| kind == LinkKind::Isolated);
+        let mut isolated = (0_u32..).zip(is_isolated).filter(|&(_, is_isolated)| is_isolated).map(|(v, _)| v);
+        Diagnostic::report(&mut warnings, "IsolatedVertex", &mut isolated, &|count| {
             format!("{count} vertices belong to no triangle; they are no critical points and keep their value")
         });
         let area = areas.iter().sum();
+        let zero_area_triangles = has_no_area().filter(|&has_none| has_none).count();
         Ok(Self {
             shared: Arc::new(Shared {
                 positions,
@@ -81,10 +90,21 @@ impl TriMesh {
                 area,
                 areas,
                 repeated_id_triangles: checked.repeated_id_triangles,
-                zero_area_triangles: zero_area.len(),
+                zero_area_triangles,
                 warnings,
             }),
         })
+    }
+
+    /// A mesh of a triangle soup: every three positions are a triangle of its own. [`weld`] joins them.
+    ///
+    /// # Errors
+    /// Those of [`TriMesh::new`]; `TrianglesNotTriples` where the number of vertices is no multiple of three.
+    pub fn from_soup(positions: Vec<f64>) -> Result<Self, MeshError> {
+        validate::check_positions(&positions)?;
+        let n = positions.len() / 3;
+        memory::ensure(4 * n as u64)?;
+        Self::new(positions, (0..n as u32).collect())
     }
 
     /// Number of vertices, isolated ones included.
@@ -155,8 +175,10 @@ impl TriMesh {
     }
 
     /// Counts the invariants of the surface; O(n).
-    #[must_use]
-    pub fn topology(&self) -> MeshTopology {
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub fn topology(&self) -> Result<MeshTopology, MeshError> {
         topology::compute(self.connectivity(), self.shared.repeated_id_triangles + self.shared.zero_area_triangles)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::TriMesh;
 use crate::error::MeshError;
+use crate::support::memory;
 
 /// A part of a mesh, and what its vertices and triangles are in the whole.
 #[derive(Debug, Clone)]
@@ -22,16 +23,18 @@ impl TriMesh {
     pub fn submesh(&self, has: &dyn Fn(u32) -> bool) -> Result<Submesh, MeshError> {
         const LEFT_OUT: u32 = u32::MAX;
         let all = self.connectivity().triangles();
-        let mut triangles = Vec::new();
+        let is_kept = |corners: &[u32; 3]| corners.iter().all(|&v| has(v));
+        memory::ensure(4 * self.vertex_count() as u64)?;
         let mut number = vec![LEFT_OUT; self.vertex_count()];
-        for (t, corners) in (0_u32..).zip(all) {
-            if corners.iter().all(|&v| has(v)) {
-                triangles.push(t);
-                corners.iter().for_each(|&v| number[v as usize] = 0);
-            }
+        let mut count = 0;
+        for corners in all.iter().filter(|corners| is_kept(corners)) {
+            count += 1;
+            corners.iter().for_each(|&v| number[v as usize] = 0);
         }
-        let mut vertices = Vec::new();
-        let mut positions = Vec::new();
+        let vertex_count = number.iter().filter(|&&number| number != LEFT_OUT).count();
+        memory::ensure(16 * count as u64 + 28 * vertex_count as u64)?;
+        let mut vertices = Vec::with_capacity(vertex_count);
+        let mut positions = Vec::with_capacity(3 * vertex_count);
         for v in 0..self.vertex_count() as u32 {
             if number[v as usize] != LEFT_OUT {
                 number[v as usize] = vertices.len() as u32;
@@ -39,7 +42,13 @@ impl TriMesh {
                 positions.extend_from_slice(&self.position(v));
             }
         }
-        let corners = triangles.iter().flat_map(|&t| all[t as usize]).map(|v| number[v as usize]).collect();
-        Ok(Submesh { mesh: Self::new(positions, corners)?, vertices, triangles })
+        let mut triangles = Vec::with_capacity(count);
+        let mut renumbered = Vec::with_capacity(3 * count);
+        for (t, corners) in (0_u32..).zip(all).filter(|(_, corners)| is_kept(corners)) {
+            triangles.push(t);
+            renumbered.extend(corners.map(|v| number[v as usize]));
+        }
+        drop(number);
+        Ok(Submesh { mesh: Self::new(positions, renumbered)?, vertices, triangles })
     }
 }

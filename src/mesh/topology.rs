@@ -1,6 +1,8 @@
 //! Counts of the surface's invariants.
 
 use super::connectivity::{Connectivity, LinkKind, corner_of};
+use crate::error::MeshError;
+use crate::support::memory;
 use crate::support::union_find::UnionFind;
 
 /// Invariants of a mesh.
@@ -29,15 +31,18 @@ pub struct MeshTopology {
     pub degenerate_triangles: usize,
 }
 
-pub(super) fn compute(connectivity: &Connectivity, degenerate_triangles: usize) -> MeshTopology {
+pub(super) fn compute(connectivity: &Connectivity, degenerate_triangles: usize) -> Result<MeshTopology, MeshError> {
+    let (n, m) = (connectivity.vertex_count() as u64, connectivity.triangles().len() as u64);
     let kinds = connectivity.link_kinds();
     let count = |kind| kinds.iter().filter(|&&k| k == kind).count();
     let sides = |edge: usize| connectivity.triangles_of_edge(edge as u32).len();
     let edges = connectivity.edges().len();
     let boundary_edges = (0..edges).filter(|&e| sides(e) == 1).count();
+    // One after the other: components, which triangles were turned and which come next, boundary edges and their loops.
+    memory::ensure((4 * n).max(5 * m).max(8 * boundary_edges as u64))?;
     let non_manifold_edges = (0..edges).filter(|&e| sides(e) > 2).count();
     let (components, orientable) = sweep(connectivity);
-    let boundary_loops = boundary_loops(connectivity);
+    let boundary_loops = boundary_loops(connectivity, boundary_edges);
     let euler_characteristic =
         connectivity.vertex_count() as i64 - edges as i64 + connectivity.triangles().len() as i64;
     let isolated_vertices = count(LinkKind::Isolated);
@@ -45,7 +50,7 @@ pub(super) fn compute(connectivity: &Connectivity, degenerate_triangles: usize) 
     let surface = euler_characteristic - isolated_vertices as i64;
     let genus = (orientable && non_manifold_vertices == 0)
         .then(|| (2 * components as i64 - surface - boundary_loops as i64) as u64 / 2);
-    MeshTopology {
+    Ok(MeshTopology {
         euler_characteristic,
         components,
         boundary_loops,
@@ -56,7 +61,7 @@ pub(super) fn compute(connectivity: &Connectivity, degenerate_triangles: usize) 
         non_manifold_vertices,
         isolated_vertices,
         degenerate_triangles,
-    }
+    })
 }
 
 /// Number of components (joined through vertices), and whether the triangles can be oriented coherently.
@@ -75,7 +80,8 @@ fn orientable(connectivity: &Connectivity) -> bool {
     let triangles = connectivity.triangles();
     // 0: not reached, 1: as given, 2: turned.
     let mut turned = vec![0_u8; triangles.len()];
-    let mut queue = Vec::new();
+    // Every triangle comes once, when it is reached.
+    let mut queue = Vec::with_capacity(triangles.len());
     for seed in 0..triangles.len() {
         if turned[seed] != 0 {
             continue;
@@ -105,9 +111,10 @@ fn orientable(connectivity: &Connectivity) -> bool {
 
 /// Boundary edges are joined at a vertex where they end the same path of its link, so that two sheets that only touch
 /// in a vertex keep their own loops.
-fn boundary_loops(connectivity: &Connectivity) -> usize {
+fn boundary_loops(connectivity: &Connectivity, count: usize) -> usize {
     let is_boundary = |edge: u32| connectivity.triangles_of_edge(edge).len() == 1;
-    let boundary: Vec<u32> = (0..connectivity.edges().len() as u32).filter(|&e| is_boundary(e)).collect();
+    let mut boundary = Vec::with_capacity(count);
+    boundary.extend((0..connectivity.edges().len() as u32).filter(|&e| is_boundary(e)));
     let mut loops = UnionFind::singletons(boundary.len());
     let place = |edge: u32| boundary.partition_point(|&e| e < edge) as u32;
     for (start, &edge) in boundary.iter().enumerate() {

@@ -2,9 +2,11 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{assemble, from_symmetric, intrinsic_delaunay_laplacian};
+use super::{assemble, assembly_bytes, from_symmetric, intrinsic_delaunay_laplacian, symmetric_bytes};
 use crate::error::MeshError;
 use crate::mesh::{TriMesh, difference, dot, norm};
+use crate::support::memory;
+use crate::support::named::named;
 
 /// Where the absolute weights of a row cancel to this fraction, dividing by their sum would only blow up rounding.
 const CANCELLED: f64 = 1e-12;
@@ -26,6 +28,11 @@ pub enum LaplacianWeights {
     Uniform,
 }
 
+named! { LaplacianWeights {
+    Cotangent = "cotangent", MeanValue = "meanValue", NormalizedCotangent = "normalizedCotangent", Uniform = "uniform",
+    IntrinsicDelaunay = "intrinsicDelaunay",
+} }
+
 impl LaplacianWeights {
     /// Whether w_ij = w_ji.
     #[must_use]
@@ -37,14 +44,14 @@ impl LaplacianWeights {
 /// The Laplacian with the given weights: see the function of each.
 ///
 /// # Errors
-/// `ZeroWeightSum` for [`LaplacianWeights::NormalizedCotangent`].
+/// `ZeroWeightSum` for [`LaplacianWeights::NormalizedCotangent`]; `OutOfMemory`.
 pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<f64>, MeshError> {
     match weights {
-        LaplacianWeights::Cotangent => Ok(cotan_laplacian(mesh)),
-        LaplacianWeights::IntrinsicDelaunay => Ok(intrinsic_delaunay_laplacian(mesh)),
+        LaplacianWeights::Cotangent => cotan_laplacian(mesh),
+        LaplacianWeights::IntrinsicDelaunay => intrinsic_delaunay_laplacian(mesh),
         LaplacianWeights::MeanValue => mean_value_laplacian(mesh),
         LaplacianWeights::NormalizedCotangent => normalized_cotan_laplacian(mesh),
-        LaplacianWeights::Uniform => Ok(uniform_laplacian(mesh)),
+        LaplacianWeights::Uniform => uniform_laplacian(mesh),
     }
 }
 
@@ -61,27 +68,38 @@ pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<
 /// # Units
 /// None: scaling the mesh does not change it.
 ///
+/// # Errors
+/// `OutOfMemory`.
+///
 /// # Example
 /// ```
 /// use morse_smooth::{mesh::shapes, operators::cotan_laplacian};
-/// let laplacian = cotan_laplacian(&shapes::tetrahedron()?);
+/// let laplacian = cotan_laplacian(&shapes::tetrahedron()?)?;
 /// // Three angles of 60° meet every edge's two opposite corners: w = cot 60° = 1/√3.
 /// let entry = laplacian.get_entry(0, 1).map(|entry| entry.into_value());
 /// assert!((entry.unwrap_or(0.0) + 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-#[must_use]
-pub fn cotan_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
-    from_symmetric(mesh.vertex_count(), mesh.connectivity().edges(), &cotan_weights(mesh))
+pub fn cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    symmetric(mesh, cotan_weights)
 }
 
 /// The graph Laplacian: w_ij = 1 for every edge.
 ///
 /// # Properties
 /// n × n, symmetric, positive semi-definite, without units; the diagonal holds the valences.
-#[must_use]
-pub fn uniform_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
-    from_symmetric(mesh.vertex_count(), mesh.connectivity().edges(), &vec![1.0; mesh.edge_count()])
+///
+/// # Errors
+/// `OutOfMemory`.
+pub fn uniform_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    symmetric(mesh, |mesh| vec![1.0; mesh.edge_count()])
+}
+
+/// The Laplacian with one weight per edge.
+fn symmetric(mesh: &TriMesh, weights: fn(&TriMesh) -> Vec<f64>) -> Result<CscMatrix<f64>, MeshError> {
+    let (n, edges) = (mesh.vertex_count(), mesh.connectivity().edges());
+    memory::ensure(8 * edges.len() as u64 + symmetric_bytes(n, edges.len()))?;
+    Ok(from_symmetric(n, edges, &weights(mesh)))
 }
 
 /// The cotangent Laplacian with every row divided by its sum of weights.
@@ -90,9 +108,13 @@ pub fn uniform_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
 /// n × n, not symmetric, unit diagonal except in rows without area, which are zero. Without units.
 ///
 /// # Errors
-/// `ZeroWeightSum` where positive and negative weights of a row cancel.
+/// `ZeroWeightSum` where positive and negative weights of a row cancel; `OutOfMemory`.
 pub fn normalized_cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
-    let sides: Vec<[f64; 2]> = cotan_weights(mesh).into_iter().map(|w| [w, w]).collect();
+    memory::ensure(normalized_bytes(mesh))?;
+    let weights = cotan_weights(mesh);
+    let mut sides = Vec::with_capacity(weights.len());
+    sides.extend(weights.iter().map(|&w| [w, w]));
+    drop(weights);
     normalized(mesh, sides)
 }
 
@@ -106,8 +128,9 @@ pub fn normalized_cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Mesh
 /// n × n, not symmetric, unit diagonal, off-diagonal entries −λ_ij ≤ 0. Without units.
 ///
 /// # Errors
-/// None in practice: the weights are positive.
+/// `OutOfMemory`.
 pub fn mean_value_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    memory::ensure(normalized_bytes(mesh))?;
     let mut sides = vec![[0.0; 2]; mesh.edge_count()];
     let connectivity = mesh.connectivity();
     for (t, (corners, edges)) in connectivity.triangles().iter().zip(connectivity.triangle_edges()).enumerate() {
@@ -150,6 +173,13 @@ fn cotan_weights(mesh: &TriMesh) -> Vec<f64> {
         }
     }
     weights
+}
+
+/// The bytes that [`normalized`] takes, its argument and the matrix included.
+fn normalized_bytes(mesh: &TriMesh) -> u64 {
+    // The sums of the weights of every vertex, those of their absolute values, and the diagonal.
+    let (n, edges) = (mesh.vertex_count(), mesh.edge_count());
+    24 * n as u64 + 16 * edges as u64 + assembly_bytes(n, edges)
 }
 
 /// Divides the weights of every vertex by their sum.

@@ -2,9 +2,11 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::assemble;
+use super::{INDEX, assemble, assembly_bytes};
 use crate::error::MeshError;
 use crate::mesh::TriMesh;
+use crate::support::memory;
+use crate::support::named::named;
 
 /// What a mass matrix is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,6 +17,41 @@ pub enum MassScale {
     MeanOne,
     /// As the paper prints it, in units of area.
     Raw,
+}
+
+named! { MassScale { MeanOne = "meanOne", Raw = "raw" } }
+
+/// The kinds of mass matrices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum MassKind {
+    /// That of linear elements: see [`galerkin_mass`]. The default.
+    #[default]
+    Galerkin,
+    /// Its row sums on the diagonal: see [`lumped_mass`].
+    Lumped,
+}
+
+named! { MassKind { Galerkin = "galerkin", Lumped = "lumped" } }
+
+/// Which mass matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MassOptions {
+    /// Its kind. Default Galerkin.
+    pub kind: MassKind,
+    /// What it is scaled to. Default mean one.
+    pub scale: MassScale,
+}
+
+/// The mass matrix with the given options: see the function of each kind.
+///
+/// # Errors
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
+pub fn mass(mesh: &TriMesh, options: &MassOptions) -> Result<CscMatrix<f64>, MeshError> {
+    match options.kind {
+        MassKind::Galerkin => galerkin_mass(mesh, options.scale),
+        MassKind::Lumped => lumped_mass(mesh, options.scale),
+    }
 }
 
 impl MassScale {
@@ -39,10 +76,12 @@ impl MassScale {
 /// n × n, symmetric, positive definite on the vertices with area; the entries sum to the area (raw) or to n (mean one).
 ///
 /// # Errors
-/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
 pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
     let factor = scale.factor(mesh)?;
     let connectivity = mesh.connectivity();
+    let (n, edges) = (mesh.vertex_count(), mesh.edge_count());
+    memory::ensure(8 * n as u64 + 16 * edges as u64 + assembly_bytes(n, edges))?;
     let mut diagonal = vec![0.0; mesh.vertex_count()];
     let mut sides = vec![[0.0; 2]; mesh.edge_count()];
     for (t, &area) in mesh.triangle_areas().iter().enumerate() {
@@ -61,9 +100,11 @@ pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>,
 /// [`galerkin_mass`]. Only the diagonal is stored.
 ///
 /// # Errors
-/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
 pub fn lumped_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
     let diagonal = lumped_mass_diagonal(mesh, scale)?;
+    // Where each column begins, its row and its value.
+    memory::ensure((2 * INDEX + 8) * diagonal.len() as u64 + INDEX)?;
     let mut matrix = CscMatrix::identity(diagonal.len());
     matrix.values_mut().copy_from_slice(&diagonal);
     Ok(matrix)
@@ -72,9 +113,10 @@ pub fn lumped_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, M
 /// The diagonal of [`lumped_mass`].
 ///
 /// # Errors
-/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area.
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
 pub fn lumped_mass_diagonal(mesh: &TriMesh, scale: MassScale) -> Result<Vec<f64>, MeshError> {
     let factor = scale.factor(mesh)?;
+    memory::ensure(8 * mesh.vertex_count() as u64)?;
     let mut diagonal = vec![0.0; mesh.vertex_count()];
     for (corners, &area) in mesh.connectivity().triangles().iter().zip(mesh.triangle_areas()) {
         for &v in corners {

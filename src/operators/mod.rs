@@ -10,11 +10,26 @@ pub use intrinsic::intrinsic_delaunay_laplacian;
 pub use laplacian::{
     LaplacianWeights, cotan_laplacian, laplacian, mean_value_laplacian, normalized_cotan_laplacian, uniform_laplacian,
 };
-pub use mass::{MassScale, galerkin_mass, lumped_mass, lumped_mass_diagonal};
+pub use mass::{MassKind, MassOptions, MassScale, galerkin_mass, lumped_mass, lumped_mass_diagonal, mass};
 
 use nalgebra_sparse::CscMatrix;
 
-/// The symmetric Laplacian with these weights of these edges: see [`assemble`].
+/// Bytes of a number as it is stored in a matrix.
+const INDEX: u64 = size_of::<usize>() as u64;
+
+/// The bytes that [`assemble`] takes, the matrix included.
+fn assembly_bytes(n: usize, edges: usize) -> u64 {
+    let (n, entries) = (n as u64, n as u64 + 2 * edges as u64);
+    // Two counters for each column and where it begins; a row and a value for each entry.
+    INDEX * (3 * n + 1) + (INDEX + 8) * entries
+}
+
+/// The bytes that [`from_symmetric`] takes, the matrix included.
+fn symmetric_bytes(n: usize, edges: usize) -> u64 {
+    8 * n as u64 + 16 * edges as u64 + assembly_bytes(n, edges)
+}
+
+/// The symmetric Laplacian with these weights of these edges: see [`assemble`]. The caller makes sure of [`symmetric_bytes`].
 fn from_symmetric(n: usize, edges: &[[u32; 2]], weights: &[f64]) -> CscMatrix<f64> {
     let mut diagonal = vec![0.0; n];
     let mut sides = Vec::with_capacity(weights.len());
@@ -29,7 +44,7 @@ fn from_symmetric(n: usize, edges: &[[u32; 2]], weights: &[f64]) -> CscMatrix<f6
 /// A matrix with `diagonal` and, for every edge (a, b), the entries `sides[0]` at (a, b) and `sides[1]` at (b, a). The
 /// diagonal is always stored, and so is every edge whatever its entries: who has the edges knows the pattern.
 ///
-/// The edges, a < b, each once, come in lexicographic order, so the columns fill in the order of their rows and nothing needs
+/// The caller makes sure of [`assembly_bytes`]. The edges, a < b, each once, come in lexicographic order, so the columns fill in the order of their rows and nothing needs
 /// sorting, which triplets would.
 fn assemble(edges: &[[u32; 2]], diagonal: &[f64], sides: &[[f64; 2]]) -> CscMatrix<f64> {
     let n = diagonal.len();

@@ -55,7 +55,7 @@ pub struct CgInfo {
 /// ```
 /// use morse_smooth::{Watch, mesh::shapes, operators::uniform_laplacian};
 /// use morse_smooth::solve::{CgOptions, Multigrid, conjugate_gradient, transposed_product};
-/// let mut matrix = uniform_laplacian(&shapes::torus(60, 40, 0.2)?);
+/// let mut matrix = uniform_laplacian(&shapes::torus(60, 40, 0.2)?)?;
 /// matrix.triplet_iter_mut().filter(|(i, j, _)| i == j).for_each(|(_, _, value)| *value += 0.01);
 /// let multigrid = Multigrid::new(&matrix, &Watch::none())?;
 /// let (b, mut x) = (vec![1.0; 2400], vec![0.0; 2400]);

@@ -7,15 +7,26 @@ pub(crate) trait Named: Copy + 'static {
 
     /// The name of a choice.
     fn label(self) -> &'static str;
+
+    /// The choice with this name.
+    fn labelled(name: &str) -> Option<Self>;
 }
 
-/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`.
+/// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
+/// files are, `any case` stands before them.
 ///
 /// ```ignore
 /// named! { Metric { Mass = "mass", Identity = "identity", Lumped = "lumped" } }
+/// named! { MeshFormat any case { Obj = "obj", Off = "off" } }
 /// ```
 macro_rules! named {
-    ($type:ident { $($variant:ident = $name:literal),* $(,)? }) => {
+    ($type:ident { $($names:tt)* }) => {
+        named! { @ $type, |name, other| name == other, { $($names)* } }
+    };
+    ($type:ident any case { $($names:tt)* }) => {
+        named! { @ $type, str::eq_ignore_ascii_case, { $($names)* } }
+    };
+    (@ $type:ident, $same:expr, { $($variant:ident = $name:literal),* $(,)? }) => {
         #[allow(dead_code, reason = "not every choice is found by its name, or listed, everywhere")]
         impl $type {
             /// All of them, in the order in which they are listed to users.
@@ -32,7 +43,8 @@ macro_rules! named {
             /// The one with this name.
             #[must_use]
             pub fn from_name(name: &str) -> Option<Self> {
-                Self::ALL.iter().copied().find(|choice| choice.name() == name)
+                let same: fn(&str, &str) -> bool = $same;
+                Self::ALL.iter().copied().find(|choice| same(choice.name(), name))
             }
         }
 
@@ -41,6 +53,10 @@ macro_rules! named {
 
             fn label(self) -> &'static str {
                 self.name()
+            }
+
+            fn labelled(name: &str) -> Option<Self> {
+                Self::from_name(name)
             }
         }
     };

@@ -49,3 +49,4 @@ mod solve;
 mod support;
 #[cfg(feature = "render")]
 mod ticks;
+mod weld;

@@ -84,7 +84,7 @@ fn check_lines(name: &str, mesh: &TriMesh, values: &[f64]) {
 }
 
 fn is_surface(mesh: &TriMesh) -> bool {
-    mesh.topology().non_manifold_vertices == 0 && mesh.topology().non_manifold_edges == 0
+    mesh.topology().unwrap().non_manifold_vertices == 0 && mesh.topology().unwrap().non_manifold_edges == 0
 }
 
 fn kinds(nodes: impl Iterator<Item = (CriticalKind, u32)>) -> BTreeMap<CriticalKind, Vec<u32>> {
@@ -101,7 +101,7 @@ fn check_hierarchy(name: &str, mesh: &TriMesh, values: &[f64]) {
     let range = value_range(mesh.connectivity(), values).unwrap().length();
     for (i, node) in hierarchy.nodes.iter().enumerate() {
         let partner = &hierarchy.nodes[node.partner as usize];
-        if node.cancelled_at.is_finite() && is_surface(mesh) && mesh.topology().closed {
+        if node.cancelled_at.is_finite() && is_surface(mesh) && mesh.topology().unwrap().closed {
             assert_eq!(partner.partner as usize, i, "{name}: a pair");
             assert_eq!(partner.cancelled_at, node.cancelled_at, "{name}");
         }
@@ -133,7 +133,7 @@ fn check_hierarchy(name: &str, mesh: &TriMesh, values: &[f64]) {
         for kind in [CriticalKind::Minimum, CriticalKind::Maximum] {
             assert_eq!(alive.get(&kind), Some(&extrema(kind)), "{name} at {relative}");
         }
-        if mesh.topology().closed && is_surface(mesh) {
+        if mesh.topology().unwrap().closed && is_surface(mesh) {
             let counts = if threshold > 0.0 {
                 let keep = Keep::Above(Threshold::Absolute(threshold));
                 let simple = simplify(mesh, values, keep).expect("a surface");
@@ -178,7 +178,7 @@ fn check_arcs(name: &str, mesh: &TriMesh, values: &[f64], relative: f64) {
         assert!(line.windows(3).all(|turn| turn[0] != turn[2]), "{name}: turns back in {line:?}");
         assert!(distinct.entry(line[0]).or_default().insert(line), "{name}: {line:?} twice");
     }
-    if mesh.topology().closed && is_surface(mesh) {
+    if mesh.topology().unwrap().closed && is_surface(mesh) {
         let mut simple: BTreeMap<u32, usize> = BTreeMap::new();
         for (i, node) in hierarchy.nodes.iter().enumerate() {
             if node.kind == CriticalKind::Saddle && hierarchy.is_alive(i as u32, threshold) {

@@ -107,8 +107,8 @@ fn check(name: &str, mesh: &TriMesh, values: &[f64]) {
     loops.sort_by_key(|&v| rank[v as usize]);
     assert_eq!(diagram.essential_saddles, loops, "{name}: essential saddles");
     let betti = up.essential.each_ref().map(|classes| classes.len() as i64);
-    let isolated = mesh.topology().isolated_vertices as i64;
-    let euler = mesh.topology().euler_characteristic;
+    let isolated = mesh.topology().unwrap().isolated_vertices as i64;
+    let euler = mesh.topology().unwrap().euler_characteristic;
     assert_eq!(betti[0] + isolated - betti[1] + betti[2], euler, "{name}: the oracle itself");
     for pair in &diagram.pairs {
         let (e, s) = (values[pair.extremum as usize], values[pair.saddle as usize]);
@@ -116,7 +116,10 @@ fn check(name: &str, mesh: &TriMesh, values: &[f64]) {
         assert_eq!(pair.persistence, pair.death - pair.birth, "{name}");
     }
     assert!(diagram.pairs.is_sorted_by(|a, b| a.persistence >= b.persistence), "{name}: descending");
-    if mesh.topology().closed && mesh.topology().non_manifold_vertices == 0 && mesh.topology().non_manifold_edges == 0 {
+    if mesh.topology().unwrap().closed
+        && mesh.topology().unwrap().non_manifold_vertices == 0
+        && mesh.topology().unwrap().non_manifold_edges == 0
+    {
         // On a closed surface the pairs of maxima are those of loops that come to bound.
         let mirrored = sorted(down.pairs[0].iter().map(|&(extremum, saddle)| (saddle, extremum)).collect());
         assert_eq!(mirrored, sorted(up.pairs[1].clone()), "{name}: duality");

@@ -29,7 +29,7 @@ fn largest_change(before: &[f64], after: &[f64]) -> f64 {
 }
 
 fn is_surface(mesh: &TriMesh) -> bool {
-    mesh.topology().non_manifold_vertices == 0 && mesh.topology().non_manifold_edges == 0
+    mesh.topology().unwrap().non_manifold_vertices == 0 && mesh.topology().unwrap().non_manifold_edges == 0
 }
 
 fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
@@ -52,11 +52,11 @@ fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
     let exact = threshold <= tilt || persistence(mesh, values).unwrap().pairs.iter().any(|p| near(p.persistence));
     let tilt = if exact { tilt } else { 0.0 };
     assert!(change <= threshold + tilt, "{name}: {change} for {threshold}");
-    if mesh.topology().closed && is_surface(mesh) {
+    if mesh.topology().unwrap().closed && is_surface(mesh) {
         let counts = critical_points(mesh, &simple, &DeltaOptions::default()).unwrap().counts;
-        let isolated = mesh.topology().isolated_vertices as i64;
+        let isolated = mesh.topology().unwrap().isolated_vertices as i64;
         let sum = i64::from(counts.minima) + i64::from(counts.maxima) - i64::from(counts.saddles);
-        assert_eq!(sum + isolated, mesh.topology().euler_characteristic, "{name}");
+        assert_eq!(sum + isolated, mesh.topology().unwrap().euler_characteristic, "{name}");
     }
 }
 
@@ -104,7 +104,7 @@ fn named_extrema_stay_and_no_others() {
                 shuffle(&mut others, &mut random);
                 others.truncate((random.uniform() * (others.len() + 1) as f64) as usize);
                 // Lower maxima in place of higher ones, and the other way round, as long as every part has one.
-                if mesh.topology().components == 1 && seed % 2 == 1 {
+                if mesh.topology().unwrap().components == 1 && seed % 2 == 1 {
                     for kind in [CriticalKind::Minimum, CriticalKind::Maximum] {
                         if others.iter().any(|&(_, other)| other == kind) {
                             wanted.retain(|&(_, other)| other != kind);

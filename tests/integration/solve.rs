@@ -106,7 +106,7 @@ fn minimum_degree_saves_fill() {
     assert_eq!(played_out(&tree, &check_order(&tree)), 127 + 126);
     // On grids about what the exact minimum degree gives, and far less than the natural order's band.
     for side in [12, 20] {
-        let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap());
+        let laplacian = uniform_laplacian(&shapes::grid(side, side).unwrap()).unwrap();
         for matrix in [laplacian.clone(), gram(&laplacian, &Watch::none()).unwrap()] {
             let natural: Vec<u32> = (0..side * side).collect();
             let natural = played_out(&matrix, &natural);

@@ -2,9 +2,13 @@
 //!
 //! `support::memory::ensure` asks for memory aligned to 64 bytes, as nothing else does: by that the allocator here knows it, and
 //! compares all that is taken afterwards with it.
+#![cfg(not(target_arch = "wasm32"))]
 #![allow(unsafe_code, reason = "an allocator that counts")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod io;
 mod mesh;
+mod operators;
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::Cell;

@@ -6,12 +6,16 @@ use data::{ArrayType, Data};
 
 use super::assembly::{Assembly, check_count, check_length};
 use super::cursor::NumberType;
-use super::scan::{Scanner, excerpt, parse_count, reserve};
+use super::scan::{Scanner, excerpt, parse_count, push, reserve};
 use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
+use crate::support::memory;
 
 /// How a file of this format starts.
 pub(super) const MAGIC: &[u8] = b"# vtk DataFile";
+
+/// What a field's name takes at most in two lists that double, besides its letters.
+const BYTES_PER_NAME: u64 = 512;
 
 /// What the attributes that follow belong to, and how many tuples they have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,7 +167,7 @@ impl Reader<'_> {
                 found += 1;
             }
             if left == 0 {
-                close(assembly, kind);
+                close(assembly, kind)?;
             }
             Ok(())
         })?;
@@ -188,10 +192,7 @@ impl Reader<'_> {
         let id_type = self.data.integer_type()?;
         // One byte or more for each is there, or this fails before the vector grows.
         let mut offsets = Vec::new();
-        self.data.integers(id_type, offset_count, |value| {
-            offsets.push(value);
-            Ok(())
-        })?;
+        self.data.integers(id_type, offset_count, |value| push(&mut offsets, value))?;
         if !self.data.text.word().is_some_and(|word| word.eq_ignore_ascii_case(b"CONNECTIVITY")) {
             return Err(self.data.text.syntax("CONNECTIVITY should follow OFFSETS"));
         }
@@ -208,7 +209,7 @@ impl Reader<'_> {
         self.data.integers(id_type, corners, |value| {
             // Cells without corners end where they start.
             while ends.next_if(|&&end| end <= read).is_some() {
-                close(assembly, kind);
+                close(assembly, kind)?;
             }
             if kind.is_some() {
                 assembly.corner(value, vertices)?;
@@ -217,7 +218,7 @@ impl Reader<'_> {
             Ok(())
         })?;
         for _ in ends {
-            close(assembly, kind);
+            close(assembly, kind)?;
         }
         Ok(offset_count.saturating_sub(1))
     }
@@ -335,6 +336,8 @@ impl Reader<'_> {
         // There are no more components and tuples than numbers, and those are there.
         let mut columns: Vec<Vec<f64>> = Vec::new();
         reserve(&mut columns, components as usize)?;
+        // The names of many short columns take more than these.
+        memory::ensure(components.saturating_mul(BYTES_PER_NAME + 2 * name.len() as u64))?;
         for _ in 0..components {
             let mut column = Vec::new();
             reserve(&mut column, tuples as usize)?;
@@ -365,11 +368,11 @@ impl Reader<'_> {
     }
 }
 
-fn close(assembly: &mut Assembly, kind: Option<Cells>) {
+fn close(assembly: &mut Assembly, kind: Option<Cells>) -> Result<(), ParseError> {
     match kind {
         Some(Cells::Polygons) => assembly.close_polygon(),
         Some(Cells::Strips) => assembly.close_strip(),
-        None => {}
+        None => Ok(()),
     }
 }
 

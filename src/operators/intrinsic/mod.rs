@@ -6,8 +6,10 @@ mod triangulation;
 use nalgebra_sparse::CscMatrix;
 
 use self::triangulation::Triangulation;
-use super::from_symmetric;
+use super::{from_symmetric, symmetric_bytes};
+use crate::error::MeshError;
 use crate::mesh::TriMesh;
+use crate::support::memory;
 
 /// The cotangent Laplacian of the intrinsic Delaunay triangulation.
 ///
@@ -35,26 +37,35 @@ use crate::mesh::TriMesh;
 /// # Units
 /// None: scaling the mesh does not change it.
 ///
+/// # Errors
+/// `OutOfMemory`.
+///
 /// # Example
 /// ```
 /// use morse_smooth::{mesh::TriMesh, operators::intrinsic_delaunay_laplacian};
 /// // A flat rhombus, cut along its longer diagonal (0, 2).
 /// let positions = vec![-2., 0., 0., 0., -1., 0., 2., 0., 0., 0., 1., 0.];
-/// let laplacian = intrinsic_delaunay_laplacian(&TriMesh::new(positions, vec![0, 1, 2, 0, 2, 3])?);
+/// let laplacian = intrinsic_delaunay_laplacian(&TriMesh::new(positions, vec![0, 1, 2, 0, 2, 3])?)?;
 /// let weight = |i, j| laplacian.get_entry(i, j).map_or(0.0, |entry| -entry.into_value());
 /// // The shorter diagonal takes its place. Each opposite angle has the tangent 4/3.
 /// assert_eq!(weight(0, 2), 0.0);
 /// assert!((weight(1, 3) - 0.75).abs() < 1e-15);
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
-#[must_use]
-pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
+pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    let before = mesh.connectivity().edges();
+    memory::ensure(Triangulation::bytes(before.len(), mesh.triangle_count()))?;
     let mut triangulation = Triangulation::new(mesh.connectivity(), lengths::edge_lengths(mesh));
     triangulation.make_delaunay();
     let mut weights = triangulation.weights();
-    let before = mesh.connectivity().edges();
 
-    let mut moved = Vec::new();
+    let new_ends =
+        |edge: u32| triangulation.ends(edge).filter(|&ends| ends != before[edge as usize] && ends[0] != ends[1]);
+    let moved_count = (0..before.len() as u32).filter_map(new_ends).count();
+    let most_edges = before.len() + moved_count;
+    let assembly = symmetric_bytes(mesh.vertex_count(), most_edges);
+    memory::ensure((size_of::<Moved>() * moved_count + 16 * most_edges) as u64 + assembly)?;
+    let mut moved = Vec::with_capacity(moved_count);
     for edge in 0..before.len() as u32 {
         if let Some(ends) = triangulation.ends(edge)
             && ends != before[edge as usize]
@@ -65,11 +76,12 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
             }
         }
     }
+    drop(triangulation);
     // The id settles the order of edges with the same ends, and with it the rounding of their sum.
     moved.sort_unstable_by_key(|moved| (moved.ends, moved.edge));
 
-    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(before.len() + moved.len());
-    let mut sums: Vec<f64> = Vec::with_capacity(before.len() + moved.len());
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(most_edges);
+    let mut sums: Vec<f64> = Vec::with_capacity(most_edges);
     let mut add = |ends: [u32; 2], weight: f64| match (edges.last(), sums.last_mut()) {
         (Some(last), Some(sum)) if *last == ends => *sum += weight,
         _ => {
@@ -87,7 +99,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> CscMatrix<f64> {
     for next in rest {
         add(next.ends, next.weight);
     }
-    from_symmetric(mesh.vertex_count(), &edges, &sums)
+    Ok(from_symmetric(mesh.vertex_count(), &edges, &sums))
 }
 
 /// An edge with other ends than in the mesh.

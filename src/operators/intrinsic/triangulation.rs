@@ -33,6 +33,13 @@ pub(super) struct Triangulation {
 }
 
 impl Triangulation {
+    /// The bytes that a triangulation of `m` triangles takes, with what is needed to flip and to weigh its edges.
+    pub(super) fn bytes(edges: usize, m: usize) -> u64 {
+        // Corners, edges and areas of the triangles; sides and lengths of the edges, and how the sides run. Besides, while edges
+        // are flipped, two rounds of them and whether they are in one, or after that their weights.
+        32 * m as u64 + 17 * edges as u64 + 9 * edges as u64
+    }
+
     pub(super) fn new(connectivity: &Connectivity, lengths: Vec<f64>) -> Self {
         let corners = connectivity.triangles().to_vec();
         let edges = connectivity.triangle_edges().to_vec();
@@ -63,7 +70,8 @@ impl Triangulation {
         let mut left = FLIPS_PER_EDGE * count as u64;
         let mut queued = vec![true; count];
         let mut round: Vec<u32> = (0..count as u32).collect();
-        let mut next = Vec::new();
+        // A round has no edge twice.
+        let mut next = Vec::with_capacity(count);
         while !round.is_empty() {
             for &edge in &round {
                 queued[edge as usize] = false;

@@ -3,35 +3,24 @@
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::mesh::RawTriMesh;
+use super::mesh::{RawTriMesh, from_weld, weld};
 use super::reports;
 use crate::error::{FieldError, OptionError};
-use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
+use crate::io::{self, Column, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::load::{LoadOptions, load};
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{bytes, floats};
 use crate::wasm::shared::error::Thrown;
 use crate::wasm::shared::record::{Record, read};
 
-const MESH_FORMAT: &str = "the name of a mesh format, such as \"ply\"";
-
-/// A format by its name.
-fn format<T>(record: &Record, expected: &str, from_name: impl FnOnce(&str) -> Option<T>) -> Option<T> {
-    record.part("format", |name| {
-        let format = name.as_string().and_then(|name| from_name(&name));
-        format.ok_or_else(|| OptionError::invalid("format", expected).into())
-    })
-}
-
 /// Reads a mesh file into `{ mesh, fields, format, warnings }`.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
     let options = read("", options, |record| {
-        let format = format(record, MESH_FORMAT, MeshFormat::from_name);
-        let read = ReadOptions { format, file_name: record.text("fileName") };
-        LoadOptions { read, weld: record.boolean("weld").unwrap_or_default() }
+        let read = ReadOptions { format: record.choice("format"), file_name: record.text("fileName") };
+        LoadOptions { read, weld: weld(record) }
     })?;
-    let loaded = load(&bytes(file)?, &options)?;
+    let loaded = load(&bytes(file)?, &options).map_err(from_weld)?;
     let answer = Answer::new();
     let fields = Array::new();
     for (name, values) in &loaded.fields {
@@ -39,7 +28,7 @@ pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown>
     }
     // Not by assignment, which takes the name `__proto__` for something else.
     answer.set("fields", &Object::from_entries(&fields).unwrap_or_default());
-    answer.set("mesh", &RawTriMesh::wrap(loaded.mesh).into());
+    answer.set("mesh", &RawTriMesh::wrap(loaded.mesh, loaded.vertex_map).into());
     answer.text("format", loaded.format.name());
     answer.set("warnings", &reports::diagnostics(&loaded.warnings));
     Ok(answer.finish()?)
@@ -48,10 +37,8 @@ pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown>
 /// Reads one field.
 #[wasm_bindgen(js_name = readField)]
 pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<JsValue, Thrown> {
-    let options = read("", options, |record| FieldReadOptions {
-        format: format(record, "\"txt\", \"csv\" or \"npy\"", FieldFormat::from_name),
-        column: column(record),
-    })?;
+    let options =
+        read("", options, |record| FieldReadOptions { format: record.choice("format"), column: column(record) })?;
     let values = io::read_field(&bytes(file)?, &options)?;
     if let Some(vertex) = values.iter().position(|value| !value.is_finite()) {
         return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
@@ -71,12 +58,9 @@ fn column(record: &Record) -> Option<Column> {
 #[wasm_bindgen(js_name = writeMesh)]
 pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<JsValue, Thrown> {
     let (format, binary, fields) = read("", options, |record| {
-        let format = format(record, MESH_FORMAT, MeshFormat::from_name);
-        if !record.has("format") {
-            record.invalid("format", &format!("{MESH_FORMAT}, and it has no default"));
-        }
+        let format = record.chosen("format").unwrap_or(MeshFormat::Ply);
         let fields = record.object::<Object>("fields", "an object of arrays by name");
-        (format.unwrap_or(MeshFormat::Ply), record.boolean("binary").unwrap_or_default(), fields)
+        (format, record.boolean("binary").unwrap_or_default(), fields)
     })?;
     let mut named = Vec::new();
     for entry in fields.iter().flat_map(|fields| Object::entries(fields).to_vec()) {

@@ -5,11 +5,11 @@ use wasm_bindgen::prelude::*;
 
 use super::options::{Constraining, from_rule};
 use super::reports;
-use crate::mesh::{self, TriMesh};
-use crate::operators::{self, LaplacianWeights};
+use crate::error::{Error, FieldError, OptionError};
+use crate::mesh::{self, TriMesh, WeldOptions};
+use crate::operators::{self, LaplacianWeights, MassOptions};
 use crate::smooth::{self, Unconstrained};
-use crate::support::named::named;
-use crate::wasm::shared::answer::array;
+use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
 use crate::wasm::shared::record::{Record, read};
@@ -18,11 +18,13 @@ use crate::wasm::shared::record::{Record, read};
 #[wasm_bindgen]
 pub struct RawTriMesh {
     mesh: TriMesh,
+    vertex_map: Option<Vec<u32>>,
 }
 
 impl RawTriMesh {
-    pub(super) fn wrap(mesh: TriMesh) -> Self {
-        Self { mesh }
+    /// `vertex_map` says what became of vertices that were welded.
+    pub(super) fn wrap(mesh: TriMesh, vertex_map: Option<Vec<u32>>) -> Self {
+        Self { mesh, vertex_map }
     }
 
     pub(super) fn mesh(&self) -> &TriMesh {
@@ -30,15 +32,30 @@ impl RawTriMesh {
     }
 }
 
-/// The kinds of mass matrices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum MassKind {
-    #[default]
-    Galerkin,
-    Lumped,
+/// Whether and how vertices are welded: true, false or `{ tolerance }`.
+pub(super) fn weld(record: &Record) -> Option<WeldOptions> {
+    let value = record.get("weld")?;
+    match value.as_bool() {
+        Some(welds) => welds.then(WeldOptions::default),
+        None if value.is_object() => record.part("weld", |value| {
+            read("weld", value, |record| WeldOptions { tolerance: record.number("tolerance").unwrap_or_default() })
+        }),
+        None => {
+            record.invalid("weld", "true, false or { tolerance }");
+            None
+        }
+    }
 }
 
-named! { MassKind { Galerkin = "galerkin", Lumped = "lumped" } }
+/// Says where the option stands that welding refuses.
+pub(super) fn from_weld(error: Error) -> Error {
+    match error {
+        Error::Option(OptionError::InvalidOption { option, expected }) if option == "tolerance" => {
+            OptionError::invalid("weld.tolerance", &expected).into()
+        }
+        other => other,
+    }
+}
 
 fn weights(record: &Record) -> LaplacianWeights {
     record.choice("weights").unwrap_or_default()
@@ -47,17 +64,47 @@ fn weights(record: &Record) -> LaplacianWeights {
 #[wasm_bindgen]
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawTriMesh {
+    /// Without triangles the positions are those of a soup, three for each triangle.
     #[wasm_bindgen(constructor)]
-    pub fn new(positions: &Float64Array, triangles: &Uint32Array, options: &JsValue) -> Result<Self, Thrown> {
-        let weld = read("", options, |record| record.boolean("weld").unwrap_or_default())?;
-        let (positions, triangles) = (floats(positions)?, ids(triangles)?);
-        let mesh = if weld {
-            let welded = mesh::weld(&positions, &triangles)?;
-            TriMesh::new(welded.positions, welded.triangles)?
-        } else {
-            TriMesh::new(positions, triangles)?
-        };
-        Ok(Self { mesh })
+    #[allow(clippy::needless_pass_by_value, reason = "wasm-bindgen hands what may be missing over by value")]
+    pub fn new(positions: &Float64Array, triangles: Option<Uint32Array>, options: &JsValue) -> Result<Self, Thrown> {
+        let options = read("", options, weld)?;
+        let positions = floats(positions)?;
+        let triangles = triangles.as_ref().map(ids).transpose()?;
+        Ok(match (options, triangles) {
+            (None, Some(triangles)) => Self::wrap(TriMesh::new(positions, triangles)?, None),
+            (options, triangles) => {
+                let welded =
+                    mesh::weld(&positions, triangles.as_deref(), &options.unwrap_or_default()).map_err(from_weld)?;
+                drop((positions, triangles));
+                let map = welded.joins_any().then_some(welded.map);
+                Self::wrap(TriMesh::new(welded.positions, welded.triangles)?, map)
+            }
+        })
+    }
+
+    /// For every vertex as given the vertex that it became; null where they are the same.
+    #[wasm_bindgen(js_name = vertexMap)]
+    pub fn vertex_map(&self) -> Result<JsValue, Thrown> {
+        Ok(self.vertex_map.as_deref().map_or(Ok(JsValue::NULL), array)?)
+    }
+
+    /// The part of the mesh that has values, and its vertices: `{ mesh, vertices }`.
+    #[wasm_bindgen(js_name = withoutMissing)]
+    pub fn without_missing(&self, values: &Float64Array) -> Result<Object, Thrown> {
+        let values = floats(values)?;
+        let (expected, actual) = (self.mesh.vertex_count(), values.len());
+        if actual != expected {
+            return Err(FieldError::LengthMismatch { expected, actual }.into());
+        }
+        if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {
+            return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
+        }
+        let part = self.mesh.submesh(&|vertex| !values[vertex as usize].is_nan())?;
+        let answer = Answer::new();
+        answer.array("vertices", &part.vertices);
+        answer.set("mesh", &Self::wrap(part.mesh, None).into());
+        Ok(answer.finish()?)
     }
 
     #[wasm_bindgen(getter, js_name = vertexCount)]
@@ -80,8 +127,8 @@ impl RawTriMesh {
         self.mesh.area()
     }
 
-    pub fn topology(&self) -> Object {
-        reports::topology(&self.mesh.topology())
+    pub fn topology(&self) -> Result<Object, Thrown> {
+        Ok(reports::topology(&self.mesh.topology()?))
     }
 
     pub fn warnings(&self) -> Array {
@@ -123,12 +170,10 @@ impl RawTriMesh {
     }
 
     pub fn mass(&self, options: &JsValue) -> Result<Object, Thrown> {
-        let (kind, scale) = read("", options, |record| {
-            (record.choice("kind").unwrap_or_default(), record.choice("massScale").unwrap_or_default())
+        let options = read("", options, |record| MassOptions {
+            kind: record.choice("kind").unwrap_or_default(),
+            scale: record.choice("massScale").unwrap_or_default(),
         })?;
-        Ok(reports::sparse(&match kind {
-            MassKind::Galerkin => operators::galerkin_mass(&self.mesh, scale)?,
-            MassKind::Lumped => operators::lumped_mass(&self.mesh, scale)?,
-        })?)
+        Ok(reports::sparse(&operators::mass(&self.mesh, &options)?)?)
     }
 }

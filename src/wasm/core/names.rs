@@ -1,7 +1,6 @@
 //! Names of choices whose rooms do not give them names yet.
 
 use crate::field::{DeltaScale, ExtremumRule, LinkReading, PathStyle};
-use crate::operators::{LaplacianWeights, MassScale};
 use crate::smooth::{Energy, Metric, Operator, Precision, SolverChoice, Unconstrained};
 use crate::support::named::named;
 
@@ -9,11 +8,6 @@ named! { DeltaScale { Relative = "relative", Absolute = "absolute" } }
 named! { LinkReading { Consecutive = "consecutive", Skip = "skip" } }
 named! { ExtremumRule { Strict = "strict", Literal = "literal" } }
 named! { PathStyle { Whole = "whole", Merged = "merged" } }
-named! { LaplacianWeights {
-    Cotangent = "cotangent", MeanValue = "meanValue", NormalizedCotangent = "normalizedCotangent", Uniform = "uniform",
-    IntrinsicDelaunay = "intrinsicDelaunay",
-} }
-named! { MassScale { MeanOne = "meanOne", Raw = "raw" } }
 named! { Operator { Paper = "paper", Fem = "fem" } }
 named! { SolverChoice { Auto = "auto", Cholesky = "cholesky", ConjugateGradient = "cg" } }
 named! { Precision { Double = "double", Single = "single" } }

@@ -1,5 +1,6 @@
 import { toNumbers, toOptions, toTriangles, toVertices } from '../../runtime/convert.js';
 import { invalidArgument } from '../../runtime/error.js';
+import { Handle } from '../../runtime/handles.js';
 import { watched } from '../../runtime/progress.js';
 import { toConstraints, toLevels } from './arguments.js';
 import { module } from './module.js';
@@ -27,7 +28,7 @@ export class TriMesh {
   constructor(positions, triangles, options) {
     const { instance } = module;
     const numbers = toNumbers(positions, 'positions');
-    const ids = toTriangles(triangles, Math.floor(numbers.length / 3));
+    const ids = triangles === null ? undefined : toTriangles(triangles, Math.floor(numbers.length / 3));
     const settings = toOptions(options);
     const handle = instance.create('TriMesh', ({ RawTriMesh }) => new RawTriMesh(numbers, ids, settings));
     states.set(this, { handle, topology: null });
@@ -64,6 +65,17 @@ export class TriMesh {
 
   triangles() {
     return handleOf(this).use((raw) => raw.triangles());
+  }
+
+  vertexMap() {
+    return handleOf(this).use((raw) => raw.vertexMap());
+  }
+
+  withoutMissing(values) {
+    const numbers = toNumbers(values, 'values');
+    const handle = handleOf(this);
+    const { mesh, vertices } = handle.use((raw) => raw.withoutMissing(numbers));
+    return { mesh: meshOf(new Handle('TriMesh', handle.instance, mesh)), vertices };
   }
 
   criticalPoints(values, options) {

@@ -44,19 +44,17 @@ impl Record {
 
     /// One of the choices, by its name, where none is the default.
     pub(in crate::wasm::core) fn chosen<T: Named>(&self, name: &str) -> Option<T> {
-        let place = self.place_of(name, T::CHOICES.len(), &|choice| T::CHOICES[choice].label());
-        place.map(|choice| T::CHOICES[choice])
+        let found = self.get(name).and_then(JsValue::as_string).and_then(|label| T::labelled(&label));
+        if found.is_none() {
+            self.no_choice(name, &mut T::CHOICES.iter().map(|choice| choice.label()));
+        }
+        found
     }
 
     #[inline(never)]
-    fn place_of(&self, name: &str, count: usize, label: &dyn Fn(usize) -> &'static str) -> Option<usize> {
-        let wanted = self.get(name).and_then(JsValue::as_string);
-        let place = (0..count).find(|&choice| wanted.as_deref() == Some(label(choice)));
-        if place.is_none() {
-            let labels: Vec<&str> = (0..count).map(label).collect();
-            self.invalid(name, &format!("one of \"{}\"", labels.join("\", \"")));
-        }
-        place
+    fn no_choice(&self, name: &str, labels: &mut dyn Iterator<Item = &'static str>) {
+        let labels: Vec<&str> = labels.collect();
+        self.invalid(name, &format!("one of \"{}\"", labels.join("\", \"")));
     }
 
     pub(in crate::wasm::core) fn function(&self, name: &str) -> Option<Function> {
