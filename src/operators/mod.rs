@@ -14,6 +14,8 @@ pub use mass::{MassKind, MassOptions, MassScale, galerkin_mass, lumped_mass, lum
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::support::csc::valid_csc;
+
 /// Bytes of a number as it is stored in a matrix.
 const INDEX: u64 = size_of::<usize>() as u64;
 
@@ -78,5 +80,5 @@ fn assemble(edges: &[[u32; 2]], diagonal: &[f64], sides: &[[f64; 2]]) -> CscMatr
         }
     }
     // Rows ascend in every column by construction, so the data is valid.
-    CscMatrix::try_from_csc_data(n, n, offsets, rows, values).unwrap_or_else(|_| CscMatrix::zeros(n, n))
+    valid_csc(n, n, offsets, rows, values)
 }

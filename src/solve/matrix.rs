@@ -3,7 +3,9 @@
 use nalgebra_sparse::CscMatrix;
 
 use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{Cancelled, SolveError};
+use crate::support::csc::valid_csc;
+use crate::support::memory;
 
 /// What a 32-bit address space can give to one matrix or factor beside everything else.
 pub(super) const ADDRESS_SPACE: u64 = if usize::BITS == 32 { 3_000_000_000 } else { 1 << 60 };
@@ -11,6 +13,16 @@ pub(super) const ADDRESS_SPACE: u64 = if usize::BITS == 32 { 3_000_000_000 } els
 /// An entry of AᵀA and what becomes of it until it is factorised: value and row id, both once more in the new order, the place
 /// in the old one, the ordering's graph, and the pattern while it grows.
 const BYTES_PER_GRAM_ENTRY: u64 = 2 * 8 + 6 * size_of::<usize>() as u64;
+
+/// An entry of a matrix: its value and its row id.
+const BYTES_PER_ENTRY: usize = 8 + size_of::<usize>();
+
+/// Two entries that share a row, met while AᵀA is counted or computed.
+const TICKS_PER_PAIR: u64 = 3;
+/// An entry that is put in its place in the transposed matrix.
+const TICKS_PER_MOVE: u64 = 8;
+/// Ids that are counted before the watch is told.
+const CHUNK: usize = 1 << 18;
 
 /// A x.
 ///
@@ -50,32 +62,31 @@ pub fn transposed_product(matrix: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// xᵀ A x.
-///
-/// # Panics
-/// Where the matrix is not square of the size of `x`.
-#[must_use]
-pub fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
-    transposed_product(matrix, x).iter().zip(x).map(|(a, b)| a * b).sum()
-}
-
 /// AᵀA, with an entry wherever two columns of A share a row, even where it cancels.
 ///
 /// # Errors
-/// `OutOfMemory` where rows of A are so full that AᵀA would not fit the address space: one vertex with 20,000 neighbours
-/// makes 400 million entries.
-pub fn gram(matrix: &CscMatrix<f64>, _watch: &Watch<'_>) -> Result<CscMatrix<f64>, SolveError> {
+/// `Cancelled`; `OutOfMemory`, also where rows of A are so full that AᵀA would not fit the address space: one vertex with
+/// 20,000 neighbours makes 400 million entries.
+pub fn gram(matrix: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<CscMatrix<f64>, SolveError> {
     let columns = matrix.ncols();
-    let by_rows = Rows::new(matrix);
-    check_gram(matrix, &by_rows)?;
+    // A once more by rows, with counters, and three numbers for every column.
+    let before = BYTES_PER_ENTRY * matrix.nnz() + size_of::<usize>() * (2 * matrix.nrows() + 3 * columns);
+    memory::ensure(before as u64)?;
+    let by_rows = transposed(matrix.nrows(), matrix.csc_data(), watch)?;
+    let entries = count_gram(matrix, &by_rows, watch)?;
+    // The product as it is found, and in order.
+    memory::ensure((2 * BYTES_PER_ENTRY * entries + size_of::<usize>() * 6 * columns) as u64)?;
     // Column j of the product gathers the columns that share a row with column j, in the order they are met …
     let mut ends = Vec::with_capacity(columns + 1);
-    let (mut met, mut sums) = (Vec::new(), Vec::new());
+    let (mut met, mut sums) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
     let (mut owner, mut place) = (vec![usize::MAX; columns], vec![0; columns]);
     ends.push(0);
     for (j, column) in matrix.col_iter().enumerate() {
+        let mut pairs = 0;
         for (&row, &value) in column.row_indices().iter().zip(column.values()) {
-            for (&i, &other) in by_rows.row(row) {
+            let others = entries_of(&by_rows, row);
+            pairs += others.len();
+            for (&i, &other) in others {
                 if owner[i] != j {
                     owner[i] = j;
                     place[i] = met.len();
@@ -86,71 +97,74 @@ pub fn gram(matrix: &CscMatrix<f64>, _watch: &Watch<'_>) -> Result<CscMatrix<f64
             }
         }
         ends.push(met.len());
+        watch.tick(TICKS_PER_PAIR * pairs as u64)?;
     }
+    drop(by_rows);
     // … and, because the product is symmetric, reading the columns as rows sorts them.
-    let unsorted = (0..columns).flat_map(|j| (ends[j]..ends[j + 1]).map(move |k| (j, k)));
-    let sorted = Rows::gather(columns, unsorted.map(|(j, k)| (met[k], j, sums[k])));
-    Ok(CscMatrix::try_from_csc_data(columns, columns, sorted.offsets, sorted.columns, sorted.values)
-        .unwrap_or_else(|_| CscMatrix::zeros(columns, columns)))
+    Ok(transposed(columns, (&ends, &met, &sums), watch)?)
 }
 
-/// Fails where AᵀA would not fit the address space, before it is begun.
-fn check_gram(matrix: &CscMatrix<f64>, by_rows: &Rows) -> Result<(), SolveError> {
-    // Every row makes a pair of each two of its columns; where rows overlap, this counts some entries several times.
-    let pairs: u64 = by_rows.offsets.windows(2).map(|row| (row[1] - row[0]) as u64).map(|length| length * length).sum();
+/// Counts the entries of AᵀA. Fails where they would not fit the address space, before any of them is computed.
+fn count_gram(matrix: &CscMatrix<f64>, by_rows: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<usize, SolveError> {
     let most = ADDRESS_SPACE / BYTES_PER_GRAM_ENTRY;
-    if pairs <= most {
-        return Ok(());
-    }
     let mut owner = vec![usize::MAX; matrix.ncols()];
     let mut entries = 0_u64;
     for (j, column) in matrix.col_iter().enumerate() {
-        for (&i, _) in column.row_indices().iter().flat_map(|&row| by_rows.row(row)) {
-            entries += u64::from(core::mem::replace(&mut owner[i], j) != j);
+        let mut pairs = 0;
+        for &row in column.row_indices() {
+            let others = entries_of(by_rows, row);
+            pairs += others.len();
+            for (&i, _) in others {
+                entries += u64::from(core::mem::replace(&mut owner[i], j) != j);
+            }
         }
         if entries > most {
             // The rest is not counted: this much is too much already.
             return Err(SolveError::OutOfMemory { bytes: entries * BYTES_PER_GRAM_ENTRY });
         }
+        watch.tick(TICKS_PER_PAIR * pairs as u64)?;
     }
-    Ok(())
+    Ok(entries as usize)
 }
 
-/// Compressed rows.
-struct Rows {
-    offsets: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
+/// The ids and values of one column.
+fn entries_of(
+    matrix: &CscMatrix<f64>,
+    column: usize,
+) -> core::iter::Zip<core::slice::Iter<'_, usize>, core::slice::Iter<'_, f64>> {
+    let (offsets, ids, values) = matrix.csc_data();
+    let range = offsets[column]..offsets[column + 1];
+    ids[range.clone()].iter().zip(&values[range])
 }
 
-impl Rows {
-    fn new(matrix: &CscMatrix<f64>) -> Self {
-        Self::gather(matrix.nrows(), matrix.triplet_iter().map(|(row, column, &value)| (row, column, value)))
+/// The transposed matrix of columns (offsets, row ids below `rows`, values), whose row ids need not ascend.
+#[inline(never)]
+fn transposed(
+    rows: usize,
+    (offsets, ids, values): (&[usize], &[usize], &[f64]),
+    watch: &Watch<'_>,
+) -> Result<CscMatrix<f64>, Cancelled> {
+    let mut starts = vec![0; rows + 1];
+    for ids in ids.chunks(CHUNK) {
+        ids.iter().for_each(|&row| starts[row + 1] += 1);
+        watch.tick(TICKS_PER_MOVE / 4 * ids.len() as u64)?;
     }
-
-    /// From (row, column, value): a counting sort by rows that keeps the order within a row.
-    fn gather(rows: usize, entries: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Self {
-        let mut offsets = vec![0; rows + 1];
-        for (row, ..) in entries.clone() {
-            offsets[row + 1] += 1;
-        }
-        for row in 0..rows {
-            offsets[row + 1] += offsets[row];
-        }
-        let mut next = offsets.clone();
-        let (mut columns, mut values) = (vec![0; offsets[rows]], vec![0.0; offsets[rows]]);
-        for (row, column, value) in entries {
-            columns[next[row]] = column;
-            values[next[row]] = value;
-            next[row] += 1;
-        }
-        Self { offsets, columns, values }
+    for row in 0..rows {
+        starts[row + 1] += starts[row];
     }
-
-    fn row(&self, row: usize) -> impl Iterator<Item = (&usize, &f64)> {
-        let range = self.offsets[row]..self.offsets[row + 1];
-        self.columns[range.clone()].iter().zip(&self.values[range])
+    let mut next = starts.clone();
+    let (mut columns, mut moved) = (vec![0; ids.len()], vec![0.0; ids.len()]);
+    for (j, range) in offsets.windows(2).enumerate() {
+        for k in range[0]..range[1] {
+            let place = &mut next[ids[k]];
+            columns[*place] = j;
+            moved[*place] = values[k];
+            *place += 1;
+        }
+        watch.tick(TICKS_PER_MOVE * (range[1] - range[0]) as u64)?;
     }
+    drop(next);
+    Ok(valid_csc(offsets.len() - 1, rows, starts, columns, moved))
 }
 
 /// ‖x‖₂, also where the squares leave the range of double precision.
@@ -169,19 +183,6 @@ pub fn norm(x: &[f64]) -> f64 {
     largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt()
 }
 
-/// ‖b − A x‖₂ / ‖b‖₂ for one right-hand side; 0 where b is zero and x solves exactly.
-///
-/// # Panics
-/// Where the sizes do not fit.
-#[must_use]
-pub fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
-    let residual: Vec<f64> = product(matrix, x).iter().zip(b).map(|(ax, b)| b - ax).collect();
-    match (norm(&residual), norm(b)) {
-        (0.0, _) => 0.0,
-        (r, b) => r / b,
-    }
-}
-
 /// The columns that `kept` lists, with all their rows.
 ///
 /// # Panics
@@ -189,8 +190,10 @@ pub fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
 #[must_use]
 #[inline(never)]
 pub fn columns(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
-    let mut offsets = vec![0];
-    let (mut rows, mut values) = (Vec::new(), Vec::new());
+    let entries = kept.iter().map(|&j| matrix.col(j as usize).nnz()).sum();
+    let mut offsets = Vec::with_capacity(kept.len() + 1);
+    let (mut rows, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+    offsets.push(0);
     for &j in kept {
         let column = matrix.col(j as usize);
         rows.extend_from_slice(column.row_indices());
@@ -198,8 +201,7 @@ pub fn columns(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
         offsets.push(rows.len());
     }
     // The columns are valid as they were.
-    CscMatrix::try_from_csc_data(matrix.nrows(), kept.len(), offsets, rows, values)
-        .unwrap_or_else(|_| CscMatrix::zeros(matrix.nrows(), kept.len()))
+    valid_csc(matrix.nrows(), kept.len(), offsets, rows, values)
 }
 
 /// The rows and columns of a square matrix that `kept` lists, ascending.
@@ -213,8 +215,11 @@ pub fn submatrix(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
     for (new, &old) in kept.iter().enumerate() {
         place[old as usize] = new;
     }
-    let mut offsets = vec![0];
-    let (mut rows, mut values) = (Vec::new(), Vec::new());
+    // At least as many as there will be.
+    let entries = kept.iter().map(|&old| matrix.col(old as usize).nnz()).sum();
+    let mut offsets = Vec::with_capacity(kept.len() + 1);
+    let (mut rows, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+    offsets.push(0);
     for &old in kept {
         let column = matrix.col(old as usize);
         for (&row, &value) in column.row_indices().iter().zip(column.values()) {
@@ -226,6 +231,5 @@ pub fn submatrix(matrix: &CscMatrix<f64>, kept: &[u32]) -> CscMatrix<f64> {
         offsets.push(rows.len());
     }
     // Ascending ids keep the rows of every column ascending, so the data is valid by construction.
-    CscMatrix::try_from_csc_data(kept.len(), kept.len(), offsets, rows, values)
-        .unwrap_or_else(|_| CscMatrix::zeros(kept.len(), kept.len()))
+    valid_csc(kept.len(), kept.len(), offsets, rows, values)
 }

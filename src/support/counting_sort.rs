@@ -32,6 +32,26 @@ pub(crate) fn counting_sort(buckets: usize, items: u32, key: &dyn Fn(u32) -> u32
     Buckets { offsets, items: sorted }
 }
 
+/// Sorts the numbers from 0 into `buckets` buckets by their keys, which a slice holds. Stable like [`counting_sort`], and faster.
+#[inline(never)]
+pub(crate) fn grouped(keys: &[u32], buckets: usize) -> Buckets {
+    let mut offsets = vec![0_u32; buckets + 1];
+    for &key in keys {
+        offsets[key as usize] += 1;
+    }
+    let mut sum = 0;
+    for offset in &mut offsets {
+        sum += *offset;
+        *offset = sum;
+    }
+    let mut items = vec![0; keys.len()];
+    for (item, &key) in keys.iter().enumerate().rev() {
+        offsets[key as usize] -= 1;
+        items[offsets[key as usize] as usize] = item as u32;
+    }
+    Buckets { offsets, items }
+}
+
 /// Where each bucket starts, and the end of the last one, for items with these keys.
 pub(crate) fn offsets(buckets: usize, keys: &mut dyn Iterator<Item = u32>) -> Vec<u32> {
     let mut offsets = vec![0_u32; buckets + 1];

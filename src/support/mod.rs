@@ -1,6 +1,7 @@
-//! Small tools that several rooms share: they know nothing of meshes, fields or matrices.
+//! Small tools that several rooms share: they know nothing of meshes or fields.
 
 pub(crate) mod counting_sort;
+pub(crate) mod csc;
 pub(crate) mod memory;
 pub(crate) mod named;
 pub(crate) mod random;

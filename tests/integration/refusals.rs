@@ -2,12 +2,12 @@
 
 use morse_smooth::Watch;
 use morse_smooth::error::SolveError;
-use morse_smooth::solve::{CholeskyAnalysis, Permutation, relative_residual};
+use morse_smooth::solve::{CholeskyAnalysis, Permutation};
 use nalgebra::{Complex, DMatrix};
 use nalgebra_sparse::pattern::SparsityPattern;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-use crate::support::{Kind, random_spd};
+use crate::support::{Kind, random_spd, relative_residual};
 
 #[test]
 fn refactoring_equals_a_new_factor() {

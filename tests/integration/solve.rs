@@ -4,13 +4,13 @@ use morse_smooth::Watch;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::operators::uniform_laplacian;
 use morse_smooth::solve::{
-    CholeskyAnalysis, Permutation, gram, minimum_degree, norm, product, quadratic_form, submatrix, transposed_product,
+    CholeskyAnalysis, Permutation, gram, minimum_degree, norm, product, submatrix, transposed_product,
 };
 use nalgebra::{DMatrix, DVector};
 use nalgebra_sparse::CscMatrix;
 use proptest::prelude::*;
 
-use crate::support::{column_counts, dense, dominant, random_spd};
+use crate::support::{column_counts, dense, dominant, quadratic_form, random_spd};
 
 fn star(n: usize) -> CscMatrix<f64> {
     // The hub is in the middle of the numbering.

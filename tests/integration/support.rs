@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
-use morse_smooth::solve::Scalar;
+use morse_smooth::solve::{Scalar, norm, product, transposed_product};
 use nalgebra::{Complex, ComplexField, DMatrix};
 use nalgebra_sparse::pattern::SparsityPattern;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
@@ -271,6 +271,20 @@ pub(crate) fn random_spd(seed: u64, n: usize, pairs: usize) -> CscMatrix<f64> {
         })
         .collect();
     dominant(n, &pairs)
+}
+
+/// xᵀ A x.
+pub(crate) fn quadratic_form(matrix: &CscMatrix<f64>, x: &[f64]) -> f64 {
+    transposed_product(matrix, x).iter().zip(x).map(|(a, b)| a * b).sum()
+}
+
+/// ‖b − A x‖₂ / ‖b‖₂ for one right-hand side; 0 where b is zero and x solves exactly.
+pub(crate) fn relative_residual(matrix: &CscMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
+    let residual: Vec<f64> = product(matrix, x).iter().zip(b).map(|(ax, b)| b - ax).collect();
+    match (norm(&residual), norm(b)) {
+        (0.0, _) => 0.0,
+        (r, b) => r / b,
+    }
 }
 
 /// Entries per column of the factor, in the order of elimination: elimination played on a dense pattern.

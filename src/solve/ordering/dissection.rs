@@ -5,13 +5,14 @@ use nalgebra_sparse::pattern::SparsityPattern;
 use super::bisection::bisect;
 use super::edge_cut::EdgeRefiner;
 use super::flow::Flow;
-use super::graph::{Graph, Groups};
+use super::graph::Graph;
+use super::ids::{NONE, filled};
 use super::leaf::LeafOrder;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
-use super::{NONE, filled};
 use crate::Watch;
 use crate::error::SolveError;
+use crate::support::counting_sort::grouped;
 
 /// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
 const LEAF: usize = 120;
@@ -170,7 +171,7 @@ impl Dissection {
     fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
         self.spare.clear();
         self.spare.extend_from_slice(members);
-        let groups = Groups::new(group_of, count);
+        let groups = grouped(group_of, count);
         for (place, &item) in members.iter_mut().zip(&groups.items) {
             *place = self.spare[item as usize];
         }

@@ -31,7 +31,7 @@ impl EdgeCut {
         cut
     }
 
-    /// The weight of the cut edges, with a malus for the imbalance of the sides.
+    /// The weight of the cut edges, with a penalty for the imbalance of the sides.
     pub(super) fn cost(&self) -> f64 {
         let [left, right] = self.weights.map(|weight| weight as f64);
         cost(self.edges as f64, self.all as f64, (left - right).abs() / (left + right))
@@ -69,18 +69,18 @@ impl EdgeRefiner {
     #[inline(never)]
     pub(super) fn refine(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, passes: usize) {
         // Gains in buckets of about a sixteenth of the edges that a vertex has on average; a power of two, as divisions are slow.
-        let unit = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
+        let shift = (cut.all / (16 * graph.len() as i64)).max(1).ilog2();
         let mut boundary: Vec<u32> = (0..graph.len() as u32).collect();
         for _ in 0..passes {
             let before = cut.cost();
-            self.run(graph, labels, cut, unit, &mut boundary);
+            self.run(graph, labels, cut, shift, &mut boundary);
             if cut.cost() >= before {
                 break;
             }
         }
     }
 
-    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, unit: u32, boundary: &mut Vec<u32>) {
+    fn run(&mut self, graph: &Graph, labels: &mut [u32], cut: &mut EdgeCut, shift: u32, boundary: &mut Vec<u32>) {
         self.log.clear();
         // Once as a mark, to list every vertex once.
         self.pass += 1;
@@ -95,7 +95,7 @@ impl EdgeRefiner {
             boundary.push(0);
         }
         for &v in &*boundary {
-            self.enter(graph, labels, v, unit);
+            self.enter(graph, labels, v, shift);
         }
         let mut best = cut.cost();
         let (mut best_length, mut best_cut, mut stall) = (0, *cut, 0);
@@ -122,14 +122,14 @@ impl EdgeRefiner {
                     let weight = 2 * i64::from(graph.edge_weight(edge));
                     let gain = self.gains[u as usize] + if side == from as usize { weight } else { -weight };
                     self.gains[u as usize] = gain;
-                    let key = Self::key(gain, unit);
+                    let key = Self::key(gain, shift);
                     if key != self.queues[side].key(u) {
                         self.queues[side].remove(u);
                         self.queues[side].insert(u, key);
                     }
                 } else {
                     boundary.push(u);
-                    self.enter(graph, labels, u, unit);
+                    self.enter(graph, labels, u, shift);
                 }
             }
             let cost = cut.cost();
@@ -170,18 +170,18 @@ impl EdgeRefiner {
         best.map(|(v, _)| v)
     }
 
-    fn key(gain: i64, unit: u32) -> u32 {
-        (BUCKETS / 2 - (gain >> unit)).clamp(0, BUCKETS - 1) as u32
+    fn key(gain: i64, shift: u32) -> u32 {
+        (BUCKETS / 2 - (gain >> shift)).clamp(0, BUCKETS - 1) as u32
     }
 
     #[inline(never)]
-    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, unit: u32) {
+    fn enter(&mut self, graph: &Graph, labels: &[u32], v: u32, shift: u32) {
         let mut gain = 0;
         for edge in graph.range(v) {
             let weight = i64::from(graph.edge_weight(edge));
             gain += if labels[graph.neighbours[edge] as usize] == labels[v as usize] { -weight } else { weight };
         }
         self.gains[v as usize] = gain;
-        self.queues[labels[v as usize] as usize].insert(v, Self::key(gain, unit));
+        self.queues[labels[v as usize] as usize].insert(v, Self::key(gain, shift));
     }
 }

@@ -1,8 +1,8 @@
 //! The smallest vertex separator near a given one.
 
 use super::graph::Graph;
+use super::ids::{NONE, filled};
 use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
-use super::{NONE, filled};
 
 /// The ends of paths.
 const SOURCE: u32 = u32::MAX - 1;

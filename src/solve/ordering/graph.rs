@@ -2,7 +2,8 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::{NONE, filled};
+use super::ids::{NONE, filled};
+use crate::support::counting_sort::grouped;
 
 /// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
 const MANY: usize = 64;
@@ -71,7 +72,7 @@ impl Graph {
 
     /// The graph whose vertices are `count` clusters of this one's.
     pub(super) fn contract(&self, cluster_of: &[u32], count: usize) -> Self {
-        let members = Groups::new(cluster_of, count);
+        let members = grouped(cluster_of, count);
         let mut offsets = Vec::with_capacity(count + 1);
         let mut neighbours: Vec<u32> = Vec::new();
         let mut edge_weights: Vec<u32> = Vec::new();
@@ -81,7 +82,7 @@ impl Graph {
         offsets.push(0);
         for cluster in 0..count {
             let begin = neighbours.len();
-            for &v in members.of(cluster) {
+            for &v in members.bucket(cluster as u32) {
                 weights[cluster] += self.weights[v as usize];
                 for edge in self.range(v) {
                     let other = cluster_of[self.neighbours[edge] as usize] as usize;
@@ -232,36 +233,5 @@ impl Graph {
             count += 1;
         }
         (cluster_of, count as usize)
-    }
-}
-
-/// Items by group.
-pub(super) struct Groups {
-    pub(super) offsets: Vec<u32>,
-    pub(super) items: Vec<u32>,
-}
-
-impl Groups {
-    /// A counting sort that keeps the order within a group.
-    pub(super) fn new(group_of: &[u32], count: usize) -> Self {
-        let mut offsets = vec![0_u32; count + 1];
-        for &group in group_of {
-            offsets[group as usize] += 1;
-        }
-        let mut sum = 0;
-        for offset in &mut offsets {
-            sum += *offset;
-            *offset = sum;
-        }
-        let mut items = vec![0; group_of.len()];
-        for (item, &group) in group_of.iter().enumerate().rev() {
-            offsets[group as usize] -= 1;
-            items[offsets[group as usize] as usize] = item as u32;
-        }
-        Self { offsets, items }
-    }
-
-    pub(super) fn of(&self, group: usize) -> &[u32] {
-        &self.items[self.offsets[group] as usize..self.offsets[group + 1] as usize]
     }
 }

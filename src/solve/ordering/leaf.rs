@@ -1,7 +1,7 @@
 //! Minimum degree on bit sets, for small parts.
 
 use super::graph::Graph;
-use super::{NONE, filled};
+use super::ids::{NONE, filled};
 
 /// Orders the unknowns of small parts by exact minimum degree; unknowns around the part, eliminated later, count.
 pub(super) struct LeafOrder {

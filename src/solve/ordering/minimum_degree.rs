@@ -2,8 +2,8 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::NONE;
 use super::graph::Graph;
+use super::ids::NONE;
 use super::queue::BucketQueue;
 use crate::Watch;
 use crate::error::SolveError;

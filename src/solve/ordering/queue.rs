@@ -1,6 +1,6 @@
 //! A priority queue for small keys.
 
-use super::{NONE, filled};
+use super::ids::{NONE, filled};
 
 /// Items in buckets by key: doubly linked lists, so that every operation but finding the next minimum is O(1).
 pub(super) struct BucketQueue {

@@ -13,7 +13,7 @@ pub(super) const LABELS: u32 = 3;
 /// Beyond this share of a part, the difference of its sides counts like edges or unknowns that are cut.
 pub(super) const IMBALANCE: f64 = 0.3;
 
-/// What is cut, with a malus for the imbalance. With sides (1 ± d)/2 the work of order n^1.5 below a cut grows by 3/8 d², and
+/// What is cut, with a penalty for the imbalance. With sides (1 ± d)/2 the work of order n^1.5 below a cut grows by 3/8 d², and
 /// it is about twice the work of the separator, which grows like its cube: together as much as a cut longer by 0.3 d².
 pub(super) fn cost(cut: f64, all: f64, imbalance: f64) -> f64 {
     let excess = if imbalance > IMBALANCE { imbalance - IMBALANCE } else { 0.0 };

@@ -1,9 +1,9 @@
 //! Preconditioned conjugate gradients.
 
-use super::matrix::norm;
 use super::preconditioner::Preconditioner;
 use crate::Watch;
 use crate::error::SolveError;
+use crate::solve::matrix::norm;
 
 /// What counts as a lower residual.
 const PROGRESS: f64 = 0.99;

@@ -1,7 +1,7 @@
 //! Dense work on one front: its layout in memory, and the elimination of its columns.
 //!
 //! A front is the lower triangle of a symmetric matrix whose first columns are eliminated. Its rows are cut into tiles of
-//! [`Unit::LANES`] rows; a tile stores its columns one after the other, a [`Unit`] each. So the innermost loop, which
+//! [`LaneBlock::LANES`] rows; a tile stores its columns one after the other, a lane block ([`LaneBlock`]) each. So the innermost loop, which
 //! multiplies two tiles, reads both of them straight through memory, and nothing is ever packed for it. Three parts:
 //!
 //! - the *pivot rows*: tile t holds the columns up to the end of its diagonal block;
@@ -11,59 +11,58 @@
 //! The first two stay as part of the factor, with the reciprocals of the pivots on the diagonal. Rows that fill the last
 //! tile of a part up are zero.
 
-use super::scalar::Scalar;
-use super::unit::Unit;
+use super::scalar::{LaneBlock, Scalar};
 
-/// Units in the tiles before tile `tile` of a triangle.
+/// Lane blocks in the tiles before tile `tile` of a triangle.
 #[inline]
-pub(super) fn triangle<U: Unit>(tile: usize) -> usize {
-    U::LANES * tile * (tile + 1) / 2
+pub(super) fn triangle<B: LaneBlock>(tile: usize) -> usize {
+    B::LANES * tile * (tile + 1) / 2
 }
 
-/// Units of a front's part of the factor, and of its update. They may be more than there are addresses.
-pub(super) fn sizes<U: Unit>(columns: usize, rows: usize) -> (u64, u64) {
-    let triangle = |tiles: u64| U::LANES as u64 * tiles * (tiles + 1) / 2;
-    let below = rows.div_ceil(U::LANES) as u64;
-    (triangle(columns.div_ceil(U::LANES) as u64) + below * columns as u64, triangle(below))
+/// Lane blocks of a front's part of the factor, and of its update. They may be more than there are addresses.
+pub(super) fn sizes<B: LaneBlock>(columns: usize, rows: usize) -> (u64, u64) {
+    let triangle = |tiles: u64| B::LANES as u64 * tiles * (tiles + 1) / 2;
+    let below = rows.div_ceil(B::LANES) as u64;
+    (triangle(columns.div_ceil(B::LANES) as u64) + below * columns as u64, triangle(below))
 }
 
 /// Tiles of pivot columns that are eliminated before the columns after them are brought up to date: 64 columns.
 const PANEL: usize = 64;
 /// Columns that one pass of an update takes: two tiles of so many stay in the first-level cache.
-const fn depth<U>() -> usize {
-    8192 / size_of::<U>()
+const fn depth<B>() -> usize {
+    8192 / size_of::<B>()
 }
 /// Rows whose tiles stay in the second-level cache while all tiles below pass by.
 const BREADTH: usize = 128;
 
-/// The diagonal entries as they were before any elimination, which tell lost pivots.
-pub(super) struct Diagonal<'a, U: Unit> {
-    pub(super) entries: &'a [U::Element],
-    /// A pivot of this fraction of its entry is lost.
-    pub(super) lost: f64,
+/// The diagonal entries as they were before any elimination, by which negligible pivots are known.
+pub(super) struct Diagonal<'a, B: LaneBlock> {
+    pub(super) entries: &'a [B::Element],
+    /// A pivot of at most this fraction of its entry is no more than rounding.
+    pub(super) negligible: f64,
 }
 
-impl<U: Unit> Clone for Diagonal<'_, U> {
+impl<B: LaneBlock> Clone for Diagonal<'_, B> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<U: Unit> Copy for Diagonal<'_, U> {}
+impl<B: LaneBlock> Copy for Diagonal<'_, B> {}
 
 /// One front.
-pub(super) struct Front<'a, U: Unit> {
+pub(super) struct Front<'a, B: LaneBlock> {
     pub(super) columns: usize,
     /// Pivot rows, then the rows below.
-    pub(super) factor: &'a mut [U],
-    pub(super) update: &'a mut [U],
+    pub(super) factor: &'a mut [B],
+    pub(super) update: &'a mut [B],
 }
 
-impl<U: Unit> Front<'_, U> {
-    /// Eliminates the columns and brings the update up to date. The first column with a lost pivot is the error.
-    pub(super) fn eliminate(&mut self, diagonal: Diagonal<'_, U>) -> Result<(), usize> {
+impl<B: LaneBlock> Front<'_, B> {
+    /// Eliminates the columns and brings the update up to date. The error is the first column whose pivot fails.
+    pub(super) fn eliminate(&mut self, diagonal: Diagonal<'_, B>) -> Result<(), usize> {
         let columns = self.columns;
-        let (pivots, below) = self.factor.split_at_mut(triangle::<U>(columns.div_ceil(U::LANES)));
+        let (pivots, below) = self.factor.split_at_mut(triangle::<B>(columns.div_ceil(B::LANES)));
         for start in (0..columns).step_by(PANEL) {
             let end = (start + PANEL).min(columns);
             update_panel(pivots, below, columns, start, end);
@@ -79,23 +78,23 @@ impl<U: Unit> Front<'_, U> {
 
 /// Subtracts the products of the columns before `start` from the columns `start..end`, in all rows from `start` on.
 #[inline(never)]
-fn update_panel<U: Unit>(pivots: &mut [U], below: &mut [U], columns: usize, start: usize, end: usize) {
-    let tiles = start / U::LANES..end.div_ceil(U::LANES);
-    for depth in (0..start).step_by(depth::<U>()) {
-        let depth = depth..(depth + self::depth::<U>()).min(start);
-        for i in tiles.start..columns.div_ceil(U::LANES) {
-            let (above, row) = pivots.split_at_mut(triangle::<U>(i));
+fn update_panel<B: LaneBlock>(pivots: &mut [B], below: &mut [B], columns: usize, start: usize, end: usize) {
+    let tiles = start / B::LANES..end.div_ceil(B::LANES);
+    for depth in (0..start).step_by(depth::<B>()) {
+        let depth = depth..(depth + self::depth::<B>()).min(start);
+        for i in tiles.start..columns.div_ceil(B::LANES) {
+            let (above, row) = pivots.split_at_mut(triangle::<B>(i));
             let (done, open) = row.split_at_mut(start);
             let a = &done[depth.clone()];
             for j in tiles.start..tiles.end.min(i + 1) {
-                let b = if j == i { a } else { &above[triangle::<U>(j)..][depth.clone()] };
-                U::update(&mut open[j * U::LANES - start..][..U::LANES], a, b);
+                let b = if j == i { a } else { &above[triangle::<B>(j)..][depth.clone()] };
+                B::update(&mut open[j * B::LANES - start..][..B::LANES], a, b);
             }
         }
         for row in below.chunks_exact_mut(columns) {
             let (done, open) = row.split_at_mut(start);
-            for (j, result) in tiles.clone().zip(open[..end - start].chunks_mut(U::LANES)) {
-                U::update(result, &done[depth.clone()], &pivots[triangle::<U>(j)..][depth.clone()]);
+            for (j, result) in tiles.clone().zip(open[..end - start].chunks_mut(B::LANES)) {
+                B::update(result, &done[depth.clone()], &pivots[triangle::<B>(j)..][depth.clone()]);
             }
         }
     }
@@ -103,22 +102,22 @@ fn update_panel<U: Unit>(pivots: &mut [U], below: &mut [U], columns: usize, star
 
 /// Eliminates the columns `start..end` of the pivot rows.
 #[inline(never)]
-fn eliminate_panel<U: Unit>(
-    pivots: &mut [U],
+fn eliminate_panel<B: LaneBlock>(
+    pivots: &mut [B],
     columns: usize,
     start: usize,
     end: usize,
-    diagonal: Diagonal<'_, U>,
+    diagonal: Diagonal<'_, B>,
 ) -> Result<(), usize> {
-    for i in start / U::LANES..columns.div_ceil(U::LANES) {
-        let (above, row) = pivots.split_at_mut(triangle::<U>(i));
-        let own = i * U::LANES;
+    for i in start / B::LANES..columns.div_ceil(B::LANES) {
+        let (above, row) = pivots.split_at_mut(triangle::<B>(i));
+        let own = i * B::LANES;
         solve_tile(above, row, start, end.min(own));
         if own < end {
             let (done, open) = row.split_at_mut(own);
-            let tile = &mut open[..U::LANES];
-            U::update(tile, &done[start..], &done[start..]);
-            let last = columns.min(own + U::LANES);
+            let tile = &mut open[..B::LANES];
+            B::update(tile, &done[start..], &done[start..]);
+            let last = columns.min(own + B::LANES);
             eliminate_tile(tile, Diagonal { entries: &diagonal.entries[own..last], ..diagonal })
                 .map_err(|column| own + column)?;
         }
@@ -128,14 +127,14 @@ fn eliminate_panel<U: Unit>(
 
 /// Solves for the entries of one tile of rows in the columns `start..end`, whose pivot rows are done.
 #[inline(never)]
-fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
+fn solve_tile<B: LaneBlock>(pivots: &[B], row: &mut [B], start: usize, end: usize) {
     let mut column = start;
     while column < end {
-        let next = (column + U::LANES).min(end);
+        let next = (column + B::LANES).min(end);
         let (done, open) = row.split_at_mut(column);
         let result = &mut open[..next - column];
-        let pivot_row = &pivots[triangle::<U>(column / U::LANES)..];
-        U::update(result, &done[start..], &pivot_row[start..column]);
+        let pivot_row = &pivots[triangle::<B>(column / B::LANES)..];
+        B::update(result, &done[start..], &pivot_row[start..column]);
         let tile = &pivot_row[column..next];
         for c in 0..result.len() {
             let solved = result[c].times(tile[c].lane(c)).without_traces();
@@ -150,13 +149,13 @@ fn solve_tile<U: Unit>(pivots: &[U], row: &mut [U], start: usize, end: usize) {
 
 /// The Cholesky factor of a diagonal tile, whose upper part comes out zero; as many columns as there are diagonal entries.
 #[inline(never)]
-fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: Diagonal<'_, U>) -> Result<(), usize> {
+fn eliminate_tile<B: LaneBlock>(tile: &mut [B], diagonal: Diagonal<'_, B>) -> Result<(), usize> {
     for c in 0..diagonal.entries.len() {
-        let root = tile[c].lane(c).root(diagonal.entries[c], diagonal.lost).ok_or(c)?;
+        let root = tile[c].lane(c).root(diagonal.entries[c], diagonal.negligible).ok_or(c)?;
         let reciprocal = root.reciprocal();
-        let mut column = U::ZERO;
-        for lane in c + 1..U::LANES {
-            column.set_lane(lane, tile[c].lane(lane).by(reciprocal));
+        let mut column = B::ZERO;
+        for lane in c + 1..B::LANES {
+            column.set_lane(lane, tile[c].lane(lane).times(reciprocal));
         }
         column = column.without_traces();
         for other in c + 1..tile.len() {
@@ -170,17 +169,17 @@ fn eliminate_tile<U: Unit>(tile: &mut [U], diagonal: Diagonal<'_, U>) -> Result<
 
 /// Subtracts the products of all pivot columns from the update.
 #[inline(never)]
-fn update_rest<U: Unit>(update: &mut [U], below: &[U], columns: usize) {
+fn update_rest<B: LaneBlock>(update: &mut [B], below: &[B], columns: usize) {
     let rows: usize = below.len() / columns.max(1);
-    let breadth = BREADTH / U::LANES;
-    for depth in (0..columns).step_by(depth::<U>()) {
-        let depth = depth..(depth + self::depth::<U>()).min(columns);
+    let breadth = BREADTH / B::LANES;
+    for depth in (0..columns).step_by(depth::<B>()) {
+        let depth = depth..(depth + self::depth::<B>()).min(columns);
         for first in (0..rows).step_by(breadth) {
             for i in first..rows {
                 let a = &below[i * columns..][depth.clone()];
-                let results = update[triangle::<U>(i)..].chunks_exact_mut(U::LANES);
+                let results = update[triangle::<B>(i)..].chunks_exact_mut(B::LANES);
                 for (j, result) in (first..(first + breadth).min(i + 1)).zip(results.skip(first)) {
-                    U::update(result, a, &below[j * columns..][depth.clone()]);
+                    B::update(result, a, &below[j * columns..][depth.clone()]);
                 }
             }
         }

@@ -44,26 +44,27 @@ impl Elimination {
     pub(super) fn new(matrix: SymmetricRows) -> Result<(Self, SymmetricRows), SolveError> {
         let n = matrix.size();
         let mut rows = Changing { matrix: &matrix, places: vec![UNCHANGED; n], changed: Vec::new() };
-        let mut this = Self::default();
-        this.weights.offsets.push(0);
+        let mut elimination = Self::default();
+        elimination.weights.offsets.push(0);
         let mut open: Vec<u32> = (0..n as u32).filter(|&i| rows.is_stiff(i as usize)).collect();
         while !open.is_empty() {
             let mut next = Vec::new();
             for i in open {
                 if rows.places[i as usize] != GONE && rows.is_stiff(i as usize) {
-                    this.eliminate(&mut rows, i, &mut next)?;
+                    elimination.eliminate(&mut rows, i, &mut next)?;
                 }
             }
             open = next;
         }
-        this.kept = (0..n as u32).filter(|&i| rows.places[i as usize] != GONE).collect();
-        if this.eliminated.is_empty() {
-            return Ok((this, matrix));
+        elimination.kept = (0..n as u32).filter(|&i| rows.places[i as usize] != GONE).collect();
+        if elimination.eliminated.is_empty() {
+            return Ok((elimination, matrix));
         }
-        let reduced = rows.reduced(&this.kept);
+        let reduced = rows.reduced(&elimination.kept);
         // Symmetric, so transposing does no more than sort.
-        let reduced = SymmetricRows::from_rows(reduced.transposed()).map_err(|error| this.name_unknown(error))?;
-        Ok((this, reduced))
+        let reduced =
+            SymmetricRows::from_rows(reduced.transposed()).map_err(|error| elimination.name_unknown(error))?;
+        Ok((elimination, reduced))
     }
 
     /// Eliminates one unknown and lists its neighbours, which may have become stiff.

@@ -21,10 +21,10 @@ pub(super) trait Lanes: Copy + Debug {
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// self − a·b
     fn minus_product(self, a: Self, b: Self) -> Self;
-    /// self + a·factor
-    fn plus_scaled(self, a: Self, factor: Self::Number) -> Self;
-    /// self − a·factor
-    fn minus_scaled(self, a: Self, factor: Self::Number) -> Self;
+    /// self + a·scale
+    fn plus_scaled(self, a: Self, scale: Self::Number) -> Self;
+    /// self − a·scale
+    fn minus_scaled(self, a: Self, scale: Self::Number) -> Self;
     /// Zero where the absolute value is below `least`.
     fn without_traces(self, least: Self::Number) -> Self;
 }
@@ -58,7 +58,7 @@ mod registers {
                 #[inline(always)]
                 #[allow(unsafe_code, reason = "there is no safe way to write a register to memory as a whole")]
                 fn store(self) -> [$number; $lanes] {
-                    // SAFETY: as above.
+                    // SAFETY: both are 32 bytes in which every pattern of bits is valid.
                     unsafe { core::mem::transmute::<[v128; 2], [$number; $lanes]>([self.0, self.1]) }
                 }
 
@@ -78,15 +78,15 @@ mod registers {
                 }
 
                 #[inline(always)]
-                fn plus_scaled(self, a: Self, factor: $number) -> Self {
-                    let factor = $splat(factor);
-                    self.plus_product(a, Self(factor, factor))
+                fn plus_scaled(self, a: Self, scale: $number) -> Self {
+                    let scale = $splat(scale);
+                    self.plus_product(a, Self(scale, scale))
                 }
 
                 #[inline(always)]
-                fn minus_scaled(self, a: Self, factor: $number) -> Self {
-                    let factor = $splat(factor);
-                    self.minus_product(a, Self(factor, factor))
+                fn minus_scaled(self, a: Self, scale: $number) -> Self {
+                    let scale = $splat(scale);
+                    self.minus_product(a, Self(scale, scale))
                 }
 
                 #[inline(always)]
@@ -141,13 +141,13 @@ mod registers {
                 }
 
                 #[inline(always)]
-                fn plus_scaled(self, a: Self, factor: $number) -> Self {
-                    Self([$(self.0[$i] + a.0[$i] * factor),*])
+                fn plus_scaled(self, a: Self, scale: $number) -> Self {
+                    Self([$(self.0[$i] + a.0[$i] * scale),*])
                 }
 
                 #[inline(always)]
-                fn minus_scaled(self, a: Self, factor: $number) -> Self {
-                    Self([$(self.0[$i] - a.0[$i] * factor),*])
+                fn minus_scaled(self, a: Self, scale: $number) -> Self {
+                    Self([$(self.0[$i] - a.0[$i] * scale),*])
                 }
 
                 #[inline(always)]
@@ -169,12 +169,12 @@ pub(super) use registers::{Doubles, Singles};
 #[inline(always)]
 pub(super) fn sum_products<const PLUS: bool, T, L: Lanes>(
     sums: [L; 4],
-    units: core::iter::Zip<core::slice::Iter<'_, T>, core::slice::Iter<'_, T>>,
+    blocks: core::iter::Zip<core::slice::Iter<'_, T>, core::slice::Iter<'_, T>>,
     a_of: impl Fn(&T) -> &L::Array,
     b_of: impl Fn(&T, usize) -> L::Number,
 ) -> [L; 4] {
     let [mut s0, mut s1, mut s2, mut s3] = sums;
-    for (a, b) in units {
+    for (a, b) in blocks {
         let a = L::load(a_of(a));
         if PLUS {
             s0 = s0.plus_scaled(a, b_of(b, 0));

@@ -1,61 +1,16 @@
-//! The numbers that a factor is made of.
-#![allow(trivial_numeric_casts, reason = "the macros cast for both precisions")]
-
-use core::fmt::Debug;
+//! The numbers that factors come in: real and complex ones, in double and single precision.
+#![allow(trivial_numeric_casts, reason = "the macro casts for both precisions")]
 
 use nalgebra::Complex;
 
-use super::unit::{Plain, Planar, Unit};
+use super::lane_block::{Plain, Planar};
+use super::scalar::Scalar;
 
-/// What a factor can be stored in: `f64`, `f32`, and complex numbers of both. Values go in and out in double precision.
-pub trait Scalar: Copy + Debug + Send + Sync + sealed::Sealed + 'static {
-    /// The same number in double precision: what matrices and right-hand sides are given in.
-    type Wide: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
-    /// A column of [`Unit::LANES`] numbers.
-    type Unit: Unit<Element = Self>;
-    /// Zero.
-    const ZERO: Self;
-    /// Whether the precision, and with it the range, is single.
-    const SINGLE: bool;
-    /// The distance from 1 to the next number.
-    const EPSILON: f64;
-
-    /// Rounds.
-    fn narrow(wide: Self::Wide) -> Self;
-    /// Exact.
-    fn wide(self) -> Self::Wide;
-    /// Whether a number given is neither NaN nor infinite.
-    fn is_finite(wide: Self::Wide) -> bool;
-    /// The larger of the absolute values of the parts.
-    fn magnitude(wide: Self::Wide) -> f64;
-    /// The number times a real factor.
-    fn times(wide: Self::Wide, factor: f64) -> Self::Wide;
-    /// The sum.
-    fn plus(self, other: Self) -> Self;
-    /// The difference.
-    fn minus(self, other: Self) -> Self;
-    /// The product.
-    fn by(self, other: Self) -> Self;
-    /// The root of a pivot, unless the pivot is lost: not finite, not in the half plane where a definite matrix has its
-    /// pivots, or at most the fraction `lost` of the `diagonal` entry that it came from.
-    fn root(self, diagonal: Self, lost: f64) -> Option<Self>;
-    /// 1/self.
-    fn reciprocal(self) -> Self;
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f64 {}
-    impl Sealed for f32 {}
-    impl Sealed for nalgebra::Complex<f64> {}
-    impl Sealed for nalgebra::Complex<f32> {}
-}
-
-macro_rules! real_scalar {
+macro_rules! scalars {
     ($real:ident, $lanes:literal) => {
         impl Scalar for $real {
             type Wide = f64;
-            type Unit = Plain<[$real; $lanes]>;
+            type Block = Plain<[$real; $lanes]>;
             const ZERO: Self = 0.0;
             const SINGLE: bool = size_of::<$real>() == 4;
             const EPSILON: f64 = $real::EPSILON as f64;
@@ -81,8 +36,8 @@ macro_rules! real_scalar {
             }
 
             #[inline]
-            fn times(wide: f64, factor: f64) -> f64 {
-                wide * factor
+            fn scaled(wide: f64, scale: f64) -> f64 {
+                wide * scale
             }
 
             #[inline]
@@ -96,13 +51,13 @@ macro_rules! real_scalar {
             }
 
             #[inline]
-            fn by(self, other: Self) -> Self {
+            fn times(self, other: Self) -> Self {
                 self * other
             }
 
             #[inline]
-            fn root(self, diagonal: Self, lost: f64) -> Option<Self> {
-                let least = lost as $real * diagonal.abs();
+            fn root(self, diagonal: Self, negligible: f64) -> Option<Self> {
+                let least = negligible as $real * diagonal.abs();
                 (self > least && self < $real::INFINITY).then(|| self.sqrt())
             }
 
@@ -114,7 +69,7 @@ macro_rules! real_scalar {
 
         impl Scalar for Complex<$real> {
             type Wide = Complex<f64>;
-            type Unit = Planar<[$real; $lanes]>;
+            type Block = Planar<[$real; $lanes]>;
             const ZERO: Self = Complex::new(0.0, 0.0);
             const SINGLE: bool = size_of::<$real>() == 4;
             const EPSILON: f64 = $real::EPSILON as f64;
@@ -140,8 +95,8 @@ macro_rules! real_scalar {
             }
 
             #[inline]
-            fn times(wide: Complex<f64>, factor: f64) -> Complex<f64> {
-                Complex::new(wide.re * factor, wide.im * factor)
+            fn scaled(wide: Complex<f64>, scale: f64) -> Complex<f64> {
+                Complex::new(wide.re * scale, wide.im * scale)
             }
 
             #[inline]
@@ -155,21 +110,21 @@ macro_rules! real_scalar {
             }
 
             #[inline]
-            fn by(self, other: Self) -> Self {
+            fn times(self, other: Self) -> Self {
                 Complex::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
             }
 
             /// Elimination keeps the real part of a matrix positive semi-definite if it was so, and then roots lie in the
             /// right half plane.
             #[inline]
-            fn root(self, diagonal: Self, lost: f64) -> Option<Self> {
+            fn root(self, diagonal: Self, negligible: f64) -> Option<Self> {
                 let size = diagonal.re.abs() + diagonal.im.abs();
-                let lost = lost as $real * size;
+                let least = negligible as $real * size;
                 // Squares of small parts would vanish in single precision.
                 let larger = self.re.abs().max(self.im.abs());
                 let (re, im) = (self.re / larger, self.im / larger);
                 let modulus = larger * (re * re + im * im).sqrt();
-                if !(modulus > lost && modulus < $real::INFINITY && self.re > -$real::EPSILON.sqrt() * size) {
+                if !(modulus > least && modulus < $real::INFINITY && self.re > -$real::EPSILON.sqrt() * size) {
                     return None;
                 }
                 // The larger part first: the other one by division, which loses no digits.
@@ -191,5 +146,5 @@ macro_rules! real_scalar {
     };
 }
 
-real_scalar!(f64, 4);
-real_scalar!(f32, 8);
+scalars!(f64, 4);
+scalars!(f32, 8);

@@ -64,6 +64,9 @@ const SMALLEST_PIVOT: f64 = 1e-12;
 ///
 /// It breaks down where positive off-diagonal entries are large, as in needle triangles. Then A + α diag(A) is factorised
 /// with growing α \[Manteuffel80\].
+///
+/// It is for matrices that [`Multigrid`](super::Multigrid) is not meant for, in a program that uses this crate's solver for
+/// others than Laplacians: the crate itself has none.
 #[derive(Debug, Clone)]
 pub struct IncompleteCholesky {
     /// A's pattern; G in its lower triangle, with the reciprocals of G's diagonal on the diagonal. The upper triangle
@@ -73,7 +76,7 @@ pub struct IncompleteCholesky {
 }
 
 impl IncompleteCholesky {
-    /// Of a symmetric matrix that stores both triangles.
+    /// Factorises a symmetric matrix that stores both triangles.
     ///
     /// # Errors
     /// `DimensionMismatch` where it is not square; `NotSymmetric`, by the pattern; `NonFiniteEntry`; `NotPositiveDefinite`

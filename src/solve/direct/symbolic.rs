@@ -2,9 +2,9 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::ordering::Permutation;
 use super::supernodes::Supernodes;
 use super::tree::{EliminationTree, NONE};
+use crate::solve::ordering::Permutation;
 
 /// The size of a Cholesky factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Symbolic {
             }
         }
         Self {
-            permutation: Permutation::of_valid(new_to_old),
+            permutation: Permutation::from_valid(new_to_old),
             starts: supernodes.starts,
             row_starts,
             rows,

@@ -1,54 +1,13 @@
-//! The short vectors that factors are stored in.
+//! Lane blocks: the short vectors that factors are stored in.
 #![allow(trivial_numeric_casts, clippy::cast_lossless, reason = "the macro casts for both precisions")]
-
-use core::fmt::Debug;
 
 use nalgebra::Complex;
 
 use super::lanes::{Doubles, Lanes, Singles, sum_products};
-use super::scalar::Scalar;
+use super::scalar::{LaneBlock, Scalar};
 
 /// About the root of the smallest normal number in single precision.
 const TRACE: f32 = 1e-19;
-
-/// A few numbers side by side, as many as two SIMD registers of WebAssembly hold; complex ones as real parts, then
-/// imaginary parts, so that no kernel has to sort them out.
-pub trait Unit: Copy + Debug + Send + Sync + 'static {
-    /// One number.
-    type Element: Scalar<Unit = Self>;
-    /// How many.
-    const LANES: usize;
-    /// All zero.
-    const ZERO: Self;
-
-    /// One of the numbers; `lane` counts around, which spares the check of its bounds.
-    fn lane(&self, lane: usize) -> Self::Element;
-    /// Replaces one of the numbers.
-    fn set_lane(&mut self, lane: usize, value: Self::Element);
-    /// self + other
-    #[must_use]
-    fn plus(&self, other: &Self) -> Self;
-    /// self − a·factor
-    #[must_use]
-    fn minus_scaled(&self, a: &Self, factor: Self::Element) -> Self;
-    /// self + a·b, lane by lane.
-    #[must_use]
-    fn plus_product(&self, a: &Self, b: &Self) -> Self;
-    /// self·factor
-    #[must_use]
-    #[inline(always)]
-    fn times(&self, factor: Self::Element) -> Self {
-        Self::ZERO.minus_scaled(self, Self::Element::ZERO.minus(factor))
-    }
-    /// Zero for numbers whose squares would leave the normal range of single precision, where processors are slow; double
-    /// precision has no such numbers in practice. Matrices in single precision are scaled to entries of at most 1.
-    #[must_use]
-    fn without_traces(self) -> Self;
-    /// The sum of the lanes.
-    fn sum(&self) -> Self::Element;
-    /// `result[j]` −= Σ over k of `a[k]` · lane j of `b[k]`
-    fn update(result: &mut [Self], a: &[Self], b: &[Self]);
-}
 
 /// Real numbers. Aligned, because registers that are read across the borders of cache lines cost a quarter of the speed.
 #[derive(Debug, Clone, Copy)]
@@ -69,9 +28,9 @@ macro_rules! without_traces {
     };
 }
 
-macro_rules! units {
+macro_rules! lane_blocks {
     ($real:ident, $lanes:literal, $registers:ident) => {
-        impl Unit for Plain<[$real; $lanes]> {
+        impl LaneBlock for Plain<[$real; $lanes]> {
             type Element = $real;
             const LANES: usize = $lanes;
             const ZERO: Self = Plain([0.0; $lanes]);
@@ -92,8 +51,8 @@ macro_rules! units {
             }
 
             #[inline(always)]
-            fn minus_scaled(&self, a: &Self, factor: $real) -> Self {
-                Plain($registers::load(&self.0).minus_scaled($registers::load(&a.0), factor).store())
+            fn minus_scaled(&self, a: &Self, scale: $real) -> Self {
+                Plain($registers::load(&self.0).minus_scaled($registers::load(&a.0), scale).store())
             }
 
             #[inline(always)]
@@ -113,9 +72,9 @@ macro_rules! units {
 
             #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
-                let (blocks, rest) = result.as_chunks_mut::<4>();
+                let (fours, rest) = result.as_chunks_mut::<4>();
                 let mut lane = 0;
-                for [r0, r1, r2, r3] in blocks {
+                for [r0, r1, r2, r3] in fours {
                     let sums = [
                         $registers::load(&r0.0),
                         $registers::load(&r1.0),
@@ -132,7 +91,7 @@ macro_rules! units {
             }
         }
 
-        impl Unit for Planar<[$real; $lanes]> {
+        impl LaneBlock for Planar<[$real; $lanes]> {
             type Element = Complex<$real>;
             const LANES: usize = $lanes;
             const ZERO: Self = Planar { re: [0.0; $lanes], im: [0.0; $lanes] };
@@ -156,10 +115,10 @@ macro_rules! units {
             }
 
             #[inline(always)]
-            fn minus_scaled(&self, a: &Self, factor: Complex<$real>) -> Self {
+            fn minus_scaled(&self, a: &Self, scale: Complex<$real>) -> Self {
                 let (re, im) = ($registers::load(&a.re), $registers::load(&a.im));
-                let real = $registers::load(&self.re).minus_scaled(re, factor.re).plus_scaled(im, factor.im);
-                let imaginary = $registers::load(&self.im).minus_scaled(re, factor.im).minus_scaled(im, factor.re);
+                let real = $registers::load(&self.re).minus_scaled(re, scale.re).plus_scaled(im, scale.im);
+                let imaginary = $registers::load(&self.im).minus_scaled(re, scale.im).minus_scaled(im, scale.re);
                 Planar { re: real.store(), im: imaginary.store() }
             }
 
@@ -188,18 +147,18 @@ macro_rules! units {
             /// One after the other the four sums of a complex product: more of them at a time would not stay in registers.
             #[inline(never)]
             fn update(result: &mut [Self], a: &[Self], b: &[Self]) {
-                let (blocks, rest) = result.as_chunks_mut::<4>();
+                let (fours, rest) = result.as_chunks_mut::<4>();
                 let mut lane = 0;
-                for [r0, r1, r2, r3] in blocks {
-                    let units = || a.iter().zip(b);
+                for [r0, r1, r2, r3] in fours {
+                    let blocks = || a.iter().zip(b);
                     let sums = [
                         $registers::load(&r0.re),
                         $registers::load(&r1.re),
                         $registers::load(&r2.re),
                         $registers::load(&r3.re),
                     ];
-                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.re, |b, j| b.re[(lane + j) % $lanes]);
-                    let sums = sum_products::<true, _, _>(sums, units(), |a| &a.im, |b, j| b.im[(lane + j) % $lanes]);
+                    let sums = sum_products::<false, _, _>(sums, blocks(), |a| &a.re, |b, j| b.re[(lane + j) % $lanes]);
+                    let sums = sum_products::<true, _, _>(sums, blocks(), |a| &a.im, |b, j| b.im[(lane + j) % $lanes]);
                     let [s0, s1, s2, s3] = sums;
                     (r0.re, r1.re, r2.re, r3.re) = (s0.store(), s1.store(), s2.store(), s3.store());
                     let sums = [
@@ -208,8 +167,8 @@ macro_rules! units {
                         $registers::load(&r2.im),
                         $registers::load(&r3.im),
                     ];
-                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.re, |b, j| b.im[(lane + j) % $lanes]);
-                    let sums = sum_products::<false, _, _>(sums, units(), |a| &a.im, |b, j| b.re[(lane + j) % $lanes]);
+                    let sums = sum_products::<false, _, _>(sums, blocks(), |a| &a.re, |b, j| b.im[(lane + j) % $lanes]);
+                    let sums = sum_products::<false, _, _>(sums, blocks(), |a| &a.im, |b, j| b.re[(lane + j) % $lanes]);
                     let [s0, s1, s2, s3] = sums;
                     (r0.im, r1.im, r2.im, r3.im) = (s0.store(), s1.store(), s2.store(), s3.store());
                     lane += 4;
@@ -220,12 +179,12 @@ macro_rules! units {
     };
 }
 
-units!(f64, 4, Doubles);
-units!(f32, 8, Singles);
+lane_blocks!(f64, 4, Doubles);
+lane_blocks!(f32, 8, Singles);
 
-/// [`Unit::update`] of results from lane `lane` on, one at a time.
+/// [`LaneBlock::update`] of results from lane `lane` on, one at a time.
 #[inline(never)]
-fn update_each<U: Unit>(results: &mut [U], a: &[U], b: &[U], mut lane: usize) {
+fn update_each<B: LaneBlock>(results: &mut [B], a: &[B], b: &[B], mut lane: usize) {
     for result in results {
         let mut sum = *result;
         for (a, b) in a.iter().zip(b) {

@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::ordering::Permutation;
+use crate::solve::ordering::Permutation;
 
 pub(super) const NONE: u32 = u32::MAX;
 

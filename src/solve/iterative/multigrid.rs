@@ -5,11 +5,12 @@ use nalgebra_sparse::CscMatrix;
 use super::aggregation::prolongation;
 use super::cg::{Limits, descend};
 use super::elimination::Elimination;
-use super::matrix::norm;
+
 use super::preconditioner::Preconditioner;
 use super::rows::{Rows, SymmetricRows};
 use crate::Watch;
 use crate::error::SolveError;
+use crate::solve::matrix::norm;
 
 /// This many unknowns are solved for directly, in less time than another level would take.
 const COARSEST: usize = 120;
@@ -22,8 +23,8 @@ const ROUNDING: f64 = 1e-14;
 /// proportional to the entries of the matrix, and the iterations of conjugate gradients hardly grow with its size.
 ///
 /// # Definition
-/// Unknowns at the obtuse corners of needle triangles are eliminated first, exactly. Levels: aggregates of strongly coupled unknowns, prolongation from their indicators smoothed by one Jacobi step, coarse
-/// matrix PᵀAP. Smoother: Gauss–Seidel, forward before and backward after the coarse correction \[Adams03\]. On the
+/// Unknowns at the obtuse corners of needle triangles are eliminated first, exactly. Levels: aggregates of strongly coupled
+/// unknowns, prolongation from their indicators smoothed by one Jacobi step, coarse matrix PᵀAP. Smoother: Gauss–Seidel, forward before and backward after the coarse correction \[Adams03\]. On the
 /// coarsest level: dense Cholesky.
 ///
 /// # Properties

@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
-use super::matrix::ADDRESS_SPACE;
 use super::multifrontal::{Workspace, reserve, reserve_fronts, storage};
-use super::ordering::{Permutation, nested_dissection};
-use super::scalar::Scalar;
+use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::{FactorSize, Symbolic};
 use super::triangular::{solve_block, solve_one};
-use super::unit::Unit;
 use crate::Watch;
 use crate::error::SolveError;
+use crate::solve::matrix::ADDRESS_SPACE;
+use crate::solve::ordering::{Permutation, nested_dissection};
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
 #[derive(Debug, Clone)]
@@ -33,7 +32,7 @@ impl CholeskyAnalysis {
     /// `DimensionMismatch` where the pattern is not square; `NotSymmetric`.
     pub fn new(pattern: SparsityPattern, watch: &Watch<'_>) -> Result<Self, SolveError> {
         check_symmetric(&pattern)?;
-        let permutation = Permutation::of_valid(nested_dissection(&pattern, watch)?);
+        let permutation = Permutation::from_valid(nested_dissection(&pattern, watch)?);
         Ok(Self::analyze(pattern, &permutation))
     }
 
@@ -81,8 +80,8 @@ impl CholeskyAnalysis {
     /// Bytes that a factor of this type and its computation take.
     #[must_use]
     pub fn memory<T: Scalar>(&self) -> u64 {
-        let (factor, stack) = storage::<T::Unit>(&self.shared.symbolic);
-        factor.saturating_add(stack).saturating_mul(size_of::<T::Unit>() as u64)
+        let (factor, stack) = storage::<T::Block>(&self.shared.symbolic);
+        factor.saturating_add(stack).saturating_mul(size_of::<T::Block>() as u64)
     }
 
     /// Factorises the matrix with the analysed pattern and the given values, in the order of the pattern: A = L Lᵀ up to
@@ -109,11 +108,11 @@ impl CholeskyAnalysis {
             return None;
         }
         // The largest block first.
-        let workspace = Workspace::new(symbolic, storage::<T::Unit>(symbolic).1).ok()?;
+        let workspace = Workspace::new(symbolic, storage::<T::Block>(symbolic).1).ok()?;
         let fronts = reserve_fronts(symbolic).ok()?;
         // Vectors that will be needed beside the factor must find room too.
         drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).ok()?);
-        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, lost: None })
+        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, failed: None })
     }
 
     fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
@@ -136,12 +135,12 @@ const HEADROOM: u64 = 512;
 pub struct CholeskyFactor<T: Scalar> {
     analysis: CholeskyAnalysis,
     /// Every front's part of the factor.
-    fronts: Vec<Vec<T::Unit>>,
-    workspace: Workspace<T::Unit>,
+    fronts: Vec<Vec<T::Block>>,
+    workspace: Workspace<T::Block>,
     /// The matrix was multiplied by this, to be within the range of single precision.
     scale: f64,
     /// The column at which the factorisation failed.
-    lost: Option<usize>,
+    failed: Option<usize>,
 }
 
 impl<T: Scalar> CholeskyFactor<T> {
@@ -159,8 +158,8 @@ impl<T: Scalar> CholeskyFactor<T> {
         let Analysis { pattern, symbolic } = &*self.analysis.shared;
         [self.scale, _] = scales::<T>(values);
         let outcome = self.workspace.factorize(symbolic, pattern, values, self.scale, &mut self.fronts);
-        self.lost = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
-        self.lost.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
+        self.failed = outcome.err().map(|place| symbolic.permutation.new_to_old()[place] as usize);
+        self.failed.map_or(Ok(()), |column| Err(SolveError::NotPositiveDefinite { column }))
     }
 
     /// Solves A X = B for right-hand sides stored one after the other.
@@ -178,14 +177,14 @@ impl<T: Scalar> CholeskyFactor<T> {
         if let Some(place) = right_hand_sides.iter().position(|&value| !T::is_finite(value)) {
             return Err(SolveError::NonFiniteEntry { row: place % n });
         }
-        if let Some(column) = self.lost {
+        if let Some(column) = self.failed {
             return Err(SolveError::NotPositiveDefinite { column });
         }
         let mut solutions = vec![T::Wide::default(); right_hand_sides.len()];
-        let block = n * T::Unit::LANES;
+        let block = n * T::Block::LANES;
         for (b, x) in right_hand_sides.chunks(block).zip(solutions.chunks_mut(block)) {
             // A block costs as much as a few single solves, however many of its lanes are used.
-            if b.len() / n <= T::Unit::LANES / 4 {
+            if b.len() / n <= T::Block::LANES / 4 {
                 for (b, x) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
                     self.solve_one(b, x);
                 }
@@ -200,10 +199,11 @@ impl<T: Scalar> CholeskyFactor<T> {
         let symbolic = &self.analysis.shared.symbolic;
         let new_to_old = symbolic.permutation.new_to_old();
         let [shrink, grow] = scales::<T>(b);
-        let mut permuted: Vec<T> = new_to_old.iter().map(|&old| T::narrow(T::times(b[old as usize], shrink))).collect();
+        let mut permuted: Vec<T> =
+            new_to_old.iter().map(|&old| T::narrow(T::scaled(b[old as usize], shrink))).collect();
         solve_one(symbolic, &self.fronts, &mut permuted);
         for (value, &old) in permuted.iter().zip(new_to_old) {
-            x[old as usize] = T::times(value.wide(), grow * self.scale);
+            x[old as usize] = T::scaled(value.wide(), grow * self.scale);
         }
     }
 
@@ -211,18 +211,18 @@ impl<T: Scalar> CholeskyFactor<T> {
         let symbolic = &self.analysis.shared.symbolic;
         let new_to_old = symbolic.permutation.new_to_old();
         let n = new_to_old.len();
-        let mut permuted = vec![T::Unit::ZERO; n];
+        let mut permuted = vec![T::Block::ZERO; n];
         for (lane, b) in b.chunks_exact(n).enumerate() {
             let [shrink, _] = scales::<T>(b);
-            for (unit, &old) in permuted.iter_mut().zip(new_to_old) {
-                unit.set_lane(lane, T::narrow(T::times(b[old as usize], shrink)));
+            for (block, &old) in permuted.iter_mut().zip(new_to_old) {
+                block.set_lane(lane, T::narrow(T::scaled(b[old as usize], shrink)));
             }
         }
         solve_block(symbolic, &self.fronts, &mut permuted);
         for (lane, (b, x)) in b.chunks_exact(n).zip(x.chunks_exact_mut(n)).enumerate() {
             let [_, grow] = scales::<T>(b);
-            for (unit, &old) in permuted.iter().zip(new_to_old) {
-                x[old as usize] = T::times(unit.lane(lane).wide(), grow * self.scale);
+            for (block, &old) in permuted.iter().zip(new_to_old) {
+                x[old as usize] = T::scaled(block.lane(lane).wide(), grow * self.scale);
             }
         }
     }

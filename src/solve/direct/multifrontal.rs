@@ -4,17 +4,16 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::front::{Diagonal, Front, sizes, triangle};
-use super::scalar::Scalar;
+use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::Symbolic;
-use super::unit::Unit;
 use crate::error::SolveError;
 
-/// Units of the whole factor, and of the stack of updates at its fullest.
-pub(super) fn storage<U: Unit>(symbolic: &Symbolic) -> (u64, u64) {
+/// Lane blocks of the whole factor, and of the stack of updates at its fullest.
+pub(super) fn storage<B: LaneBlock>(symbolic: &Symbolic) -> (u64, u64) {
     let (mut total, mut held, mut peak) = (0_u64, 0_u64, 0_u64);
     let mut stacks: [Vec<u64>; 2] = [Vec::new(), Vec::new()];
     for s in 0..symbolic.fronts() {
-        let (factor, update) = sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len());
+        let (factor, update) = sizes::<B>(symbolic.columns(s).len(), symbolic.rows_of(s).len());
         total += factor;
         held += update;
         peak = peak.max(held);
@@ -35,29 +34,29 @@ fn sides<T>(both: &mut [T; 2], odd: bool) -> [&mut T; 2] {
 
 /// Of the last pivot of a singular matrix of n unknowns, rounding leaves less than this many times √n roundings of the
 /// diagonal entry: a third of it was the most in the Laplacians, and squared Laplacians, of all kinds of meshes.
-const LOST: f64 = 256.0;
+const NEGLIGIBLE: f64 = 256.0;
 /// Pivots of sound matrices can be this small a fraction of their entries, where triangles are needles. It leaves single
 /// precision without a sure way to tell singular matrices: there a solution has to be checked, as refinement does.
-const MOST_LOST: f64 = 1e-5;
+const MOST_NEGLIGIBLE: f64 = 1e-5;
 
 /// What a factorisation needs besides the factor, kept for the next one.
 #[derive(Debug, Clone)]
-pub(super) struct Workspace<U: Unit> {
+pub(super) struct Workspace<B: LaneBlock> {
     /// Updates that wait for their parents: those of fronts at an even depth from the front end, the others from the back,
     /// so that a new update never has to be moved when its children's are let go.
-    stack: Vec<U>,
+    stack: Vec<B>,
     /// For the columns and rows of the front at hand their places in it.
     places: Vec<u32>,
-    /// The same for the rows of one child.
+    /// For the rows of one child their places in the front at hand.
     child_places: Vec<u32>,
-    diagonal: Vec<U::Element>,
+    diagonal: Vec<B::Element>,
 }
 
 /// Allocates, or says how much could not be had.
-pub(super) fn reserve<T>(units: u64) -> Result<Vec<T>, SolveError> {
-    let bytes = units.saturating_mul(size_of::<T>() as u64);
+pub(super) fn reserve<T>(blocks: u64) -> Result<Vec<T>, SolveError> {
+    let bytes = blocks.saturating_mul(size_of::<T>() as u64);
     let mut vector = Vec::new();
-    match usize::try_from(units).map(|units| vector.try_reserve_exact(units)) {
+    match usize::try_from(blocks).map(|blocks| vector.try_reserve_exact(blocks)) {
         Ok(Ok(())) => Ok(vector),
         _ => Err(SolveError::OutOfMemory { bytes }),
     }
@@ -65,12 +64,12 @@ pub(super) fn reserve<T>(units: u64) -> Result<Vec<T>, SolveError> {
 
 /// Room for every front's part of the factor. One allocation each: they find room among what earlier work left behind,
 /// where the whole factor would not.
-pub(super) fn reserve_fronts<U: Unit>(symbolic: &Symbolic) -> Result<Vec<Vec<U>>, SolveError> {
-    let size = |s| sizes::<U>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
+pub(super) fn reserve_fronts<B: LaneBlock>(symbolic: &Symbolic) -> Result<Vec<Vec<B>>, SolveError> {
+    let size = |s| sizes::<B>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
     (0..symbolic.fronts()).map(|s| reserve(size(s))).collect()
 }
 
-impl<U: Unit> Workspace<U> {
+impl<B: LaneBlock> Workspace<B> {
     pub(super) fn new(symbolic: &Symbolic, stack: u64) -> Result<Self, SolveError> {
         let mut workspace = Self {
             stack: reserve(stack)?,
@@ -78,21 +77,21 @@ impl<U: Unit> Workspace<U> {
             child_places: Vec::new(),
             diagonal: Vec::new(),
         };
-        workspace.stack.resize(stack as usize, U::ZERO);
+        workspace.stack.resize(stack as usize, B::ZERO);
         Ok(workspace)
     }
 
     /// Computes the factor of the matrix with these values, times `scale`, into `factor`, a vector with the capacity for it
-    /// for every front. The error is the place of a column whose pivot was lost.
+    /// for every front. The error is the place of a column whose pivot failed.
     pub(super) fn factorize(
         &mut self,
         symbolic: &Symbolic,
         pattern: &SparsityPattern,
-        values: &[<U::Element as Scalar>::Wide],
+        values: &[<B::Element as Scalar>::Wide],
         scale: f64,
-        factor: &mut [Vec<U>],
+        factor: &mut [Vec<B>],
     ) -> Result<(), usize> {
-        let lost = (LOST * U::Element::EPSILON * (self.places.len() as f64).sqrt()).min(MOST_LOST);
+        let negligible = (NEGLIGIBLE * B::Element::EPSILON * (self.places.len() as f64).sqrt()).min(MOST_NEGLIGIBLE);
         // Fronts whose updates wait at either end, and where the free part of the stack begins and ends.
         let mut waiting: [Vec<u32>; 2] = [Vec::new(), Vec::new()];
         let mut free = [0, self.stack.len()];
@@ -100,7 +99,7 @@ impl<U: Unit> Workspace<U> {
             let columns = symbolic.columns(s);
             let rows = symbolic.rows_of(s);
             // There is room for both, so they are addresses.
-            let (factor_size, update_size) = sizes::<U>(columns.len(), rows.len());
+            let (factor_size, update_size) = sizes::<B>(columns.len(), rows.len());
             let (factor_size, update_size) = (factor_size as usize, update_size as usize);
             // Only now, so that the zeros are still in the cache when the front is assembled.
             set_zero(factor, factor_size);
@@ -125,7 +124,7 @@ impl<U: Unit> Workspace<U> {
                 let child_rows = others.pop().map_or(&[][..], |child| symbolic.rows_of(child as usize));
                 self.child_places.clear();
                 self.child_places.extend(child_rows.iter().map(|&row| self.places[row as usize]));
-                let size = triangle::<U>(child_rows.len().div_ceil(U::LANES));
+                let size = triangle::<B>(child_rows.len().div_ceil(B::LANES));
                 // The last child lies next to the free part.
                 let child = if odd {
                     let end = children.len() - released;
@@ -136,7 +135,7 @@ impl<U: Unit> Workspace<U> {
                 add_child(&mut front, child, &self.child_places);
                 released += size;
             }
-            let diagonal = Diagonal { entries: &self.diagonal, lost };
+            let diagonal = Diagonal { entries: &self.diagonal, negligible };
             front.eliminate(diagonal).map_err(|column| columns.start + column)?;
             own.push(s as u32);
             if odd {
@@ -155,18 +154,18 @@ impl<U: Unit> Workspace<U> {
 // function that is called once and runs long.
 
 #[inline(never)]
-fn set_zero<U: Unit>(factor: &mut Vec<U>, size: usize) {
+fn set_zero<B: LaneBlock>(factor: &mut Vec<B>, size: usize) {
     factor.clear();
-    factor.resize(size, U::ZERO);
+    factor.resize(size, B::ZERO);
 }
 
 #[inline(never)]
-fn clear<U: Unit>(units: &mut [U]) {
-    units.fill(U::ZERO);
+fn clear<B: LaneBlock>(blocks: &mut [B]) {
+    blocks.fill(B::ZERO);
 }
 
 /// Room for an update beside the free part, at the even or odd end, and all that waits at the other end.
-fn split_stack<U>(stack: &mut [U], free: [usize; 2], size: usize, odd: bool) -> (&mut [U], &[U]) {
+fn split_stack<B>(stack: &mut [B], free: [usize; 2], size: usize, odd: bool) -> (&mut [B], &[B]) {
     if odd {
         let (children, rest) = stack[..free[1]].split_at_mut(free[0]);
         let start = rest.len() - size;
@@ -179,68 +178,68 @@ fn split_stack<U>(stack: &mut [U], free: [usize; 2], size: usize, odd: bool) -> 
 
 /// Puts the entries of one column of the matrix into the front; its diagonal entry.
 #[inline(never)]
-fn assemble_column<U: Unit>(
-    front: &mut Front<'_, U>,
+fn assemble_column<B: LaneBlock>(
+    front: &mut Front<'_, B>,
     symbolic: &Symbolic,
     pattern: &SparsityPattern,
-    (values, scale): (&[<U::Element as Scalar>::Wide], f64),
+    (values, scale): (&[<B::Element as Scalar>::Wide], f64),
     column: usize,
     places: &[u32],
-) -> U::Element {
+) -> B::Element {
     let old = symbolic.permutation.new_to_old()[column] as usize;
     let old_to_new = symbolic.permutation.old_to_new();
     let start = pattern.major_offsets()[old];
     let place = places[column] as usize;
-    let below = triangle::<U>(front.columns.div_ceil(U::LANES));
-    let mut diagonal = U::Element::ZERO;
+    let below = triangle::<B>(front.columns.div_ceil(B::LANES));
+    let mut diagonal = B::Element::ZERO;
     for (k, &other) in pattern.lane(old).iter().enumerate() {
         let row = old_to_new[other] as usize;
         if row < column {
             continue;
         }
-        let value = U::Element::narrow(U::Element::times(values[start + k], scale));
+        let value = B::Element::narrow(B::Element::scaled(values[start + k], scale));
         if row == column {
             diagonal = value;
         }
         let row = places[row] as usize;
-        let (unit, lane) = if row < front.columns {
-            (triangle::<U>(row / U::LANES) + place, row % U::LANES)
+        let (block, lane) = if row < front.columns {
+            (triangle::<B>(row / B::LANES) + place, row % B::LANES)
         } else {
             let row = row - front.columns;
-            (below + row / U::LANES * front.columns + place, row % U::LANES)
+            (below + row / B::LANES * front.columns + place, row % B::LANES)
         };
-        front.factor[unit].set_lane(lane, value);
+        front.factor[block].set_lane(lane, value);
     }
     diagonal
 }
 
 /// Adds the update of a child, whose rows have the given places in the front.
 #[inline(never)]
-fn add_child<U: Unit>(front: &mut Front<'_, U>, child: &[U], places: &[u32]) {
+fn add_child<B: LaneBlock>(front: &mut Front<'_, B>, child: &[B], places: &[u32]) {
     let columns = front.columns;
     // The child's columns that are pivot columns here; the others belong to the update.
     let split = places.partition_point(|&place| (place as usize) < columns);
-    let (pivots, below) = front.factor.split_at_mut(triangle::<U>(columns.div_ceil(U::LANES)));
+    let (pivots, below) = front.factor.split_at_mut(triangle::<B>(columns.div_ceil(B::LANES)));
     for (r, &place) in places.iter().enumerate() {
-        let source = &child[triangle::<U>(r / U::LANES)..][..=r];
-        let (from, place) = (r % U::LANES, place as usize);
+        let source = &child[triangle::<B>(r / B::LANES)..][..=r];
+        let (from, place) = (r % B::LANES, place as usize);
         if place < columns {
-            let row = &mut pivots[triangle::<U>(place / U::LANES)..];
-            add_row(row, place % U::LANES, source, from, &places[..=r], 0);
+            let row = &mut pivots[triangle::<B>(place / B::LANES)..];
+            add_row(row, place % B::LANES, source, from, &places[..=r], 0);
         } else {
-            let (tile, lane) = ((place - columns) / U::LANES, (place - columns) % U::LANES);
+            let (tile, lane) = ((place - columns) / B::LANES, (place - columns) % B::LANES);
             add_row(&mut below[tile * columns..], lane, &source[..split], from, &places[..split], 0);
-            let row = &mut front.update[triangle::<U>(tile)..];
+            let row = &mut front.update[triangle::<B>(tile)..];
             add_row(row, lane, &source[split..], from, &places[split..=r], columns);
         }
     }
 }
 
-/// Adds lane `from` of each unit of `source` to lane `lane` of the units of `row` at `places` less `first`.
+/// Adds lane `from` of each block of `source` to lane `lane` of the blocks of `row` at `places` less `first`.
 #[inline(always)]
-fn add_row<U: Unit>(row: &mut [U], lane: usize, source: &[U], from: usize, places: &[u32], first: usize) {
-    for (unit, &place) in source.iter().zip(places) {
+fn add_row<B: LaneBlock>(row: &mut [B], lane: usize, source: &[B], from: usize, places: &[u32], first: usize) {
+    for (block, &place) in source.iter().zip(places) {
         let target = &mut row[place as usize - first];
-        target.set_lane(lane, target.lane(lane).plus(unit.lane(from)));
+        target.set_lane(lane, target.lane(lane).plus(block.lane(from)));
     }
 }

@@ -15,7 +15,7 @@ const MOST_INNER: usize = 500;
 /// diagonals D and W, the latter the identity unless [`SquaredSum::between`] says something else.
 ///
 /// # Definition
-/// P⁻¹ r = (L + D)⁻¹ W⁻¹ (L + D)⁻¹ r up to a factor, both solves by conjugate gradients with [`Multigrid`] to a loose
+/// P⁻¹ r = (L + D)⁻¹ W⁻¹ (L + D)⁻¹ r up to a multiple, both solves by conjugate gradients with [`Multigrid`] to a loose
 /// relative tolerance.
 ///
 /// # Properties
@@ -56,12 +56,12 @@ impl SquaredSum {
         Ok(Self { multigrid: Multigrid::from_rows(sum, watch)?, tolerance, largest, between: None })
     }
 
-    /// Another tolerance for both solves.
+    /// Sets another tolerance for both solves.
     pub fn set_tolerance(&mut self, tolerance: f64) {
         self.tolerance = tolerance;
     }
 
-    /// For a W that is not the identity: its inverse.
+    /// Sets a W that is not the identity, by its inverse.
     #[must_use]
     pub fn between(mut self, inverse: &[f64]) -> Self {
         let largest = inverse.iter().fold(0.0_f64, |largest, &w| largest.max(w));
@@ -80,7 +80,7 @@ impl Preconditioner for SquaredSum {
     }
 
     fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
-        // The factor keeps numbers within range where D is tiny or huge, and changes nothing else.
+        // The scaling keeps numbers within range where D is tiny or huge, and changes nothing else.
         let mut half = self.multigrid.solve(self.scaled(r), self.tolerance, MOST_INNER, watch)?;
         if let Some(between) = &self.between {
             half.iter_mut().zip(between).for_each(|(h, w)| *h *= w);

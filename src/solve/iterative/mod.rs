@@ -1,0 +1,14 @@
+//! Conjugate gradients and what preconditions them.
+
+mod aggregation;
+mod cg;
+mod elimination;
+mod multigrid;
+mod preconditioner;
+mod rows;
+mod squared;
+
+pub use cg::{CgInfo, CgOptions, conjugate_gradient};
+pub use multigrid::Multigrid;
+pub use preconditioner::{IncompleteCholesky, Jacobi, Preconditioner};
+pub use squared::SquaredSum;
