@@ -26,15 +26,7 @@ pub(crate) const RULES: Rules = Rules {
     ],
     orders: &[
         ("io", &[&["scan"], &["cursor"], &["assembly"], &["obj", "off", "ply", "vtk", "table"], &["write"], &["mod"]]),
-        (
-            "mesh",
-            &[
-                &["connectivity", "geometry"],
-                &["topology", "validate"],
-                &["mod"],
-                &["shapes", "submesh", "weld"],
-            ],
-        ),
+        ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
         ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
@@ -119,19 +111,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["scene", "mod"],
             ],
         ),
-        (
-            "wasm",
-            &[
-                &["error"],
-                &["convert"],
-                &["options"],
-                &["mesh"],
-                &["critical", "files", "levels", "persistence"],
-                &["smoother"],
-                &["snapshot"],
-                &["mod"],
-            ],
-        ),
+        ("wasm", &[&["shared"], &["core", "snapshot"], &["mod"]]),
     ],
     platform: &["mesh/shapes.rs"],
 };
