@@ -103,16 +103,23 @@ impl From<OutOfMemory> for Error {
     }
 }
 
-/// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names.
+/// Declares a stage's error enum once: variants, fields and messages; code and details follow from the names. Fields behind a
+/// semicolon are for the message alone.
 macro_rules! stage_error {
     ($(#[$meta:meta])* $name:ident {
-        $($(#[$variant_meta:meta])* $variant:ident { $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)? } => $message:literal,)*
+        $($(#[$variant_meta:meta])* $variant:ident {
+            $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)?
+            $(; $($(#[$hidden_meta:meta])* $hidden:ident : $hidden_ty:ty),* $(,)?)?
+        } => $message:literal,)*
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
         pub enum $name {
-            $($(#[$variant_meta])* $variant { $($(#[$field_meta])* $field: $ty),* },)*
+            $($(#[$variant_meta])* $variant {
+                $($(#[$field_meta])* $field: $ty,)*
+                $($($(#[$hidden_meta])* $hidden: $hidden_ty,)*)?
+            },)*
         }
 
         impl $name {
@@ -128,7 +135,7 @@ macro_rules! stage_error {
             #[must_use]
             pub fn detail(&self) -> Vec<(&'static str, Detail)> {
                 match self {
-                    $(Self::$variant { $($field),* } => vec![$((stringify!($field), Detail::from($field.clone()))),*],)*
+                    $(Self::$variant { $($field,)* .. } => vec![$((stringify!($field), Detail::from($field.clone()))),*],)*
                 }
             }
         }
@@ -136,7 +143,7 @@ macro_rules! stage_error {
         impl fmt::Display for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
-                    $(Self::$variant { $($field),* } => {
+                    $(Self::$variant { $($field,)* $($($hidden,)*)? } => {
                         $(let _ = $field;)*
                         write!(f, $message)
                     })*
@@ -329,8 +336,10 @@ stage_error! {
             /// Length that fits.
             expected: usize,
             /// Length that came.
-            actual: usize,
-        } => "{expected} values are needed, one per vertex and channel, but there are {actual}",
+            actual: usize;
+            /// What may have been meant.
+            hint: &'static str,
+        } => "{expected} values are needed, one per vertex and channel, but there are {actual}{hint}",
         /// A value is NaN or infinite.
         NonFiniteValue {
             /// The vertex.
@@ -513,6 +522,18 @@ stage_error! {
             /// The class.
             object: String,
         } => "this {object} was freed",
+    }
+}
+
+impl FieldError {
+    /// So many values are no field on a mesh with so many vertices and triangles.
+    pub(crate) fn length_mismatch(expected: usize, actual: usize, triangles: usize) -> Self {
+        let hint = if actual == triangles && triangles > 0 {
+            ": one per triangle; average the values of the triangles around each vertex"
+        } else {
+            ""
+        };
+        Self::LengthMismatch { expected, actual, hint }
     }
 }
 

@@ -42,12 +42,18 @@ async function bundleOne(entry, output) {
   const kind = extname(output);
   const shared = {
     name: 'shared-error',
-    resolveId: (id, importer) => (importer && /\/error\.js$/.test(id) ? { id: ERROR[kind], external: 'absolute' } : null),
+    resolveId: (id, importer) =>
+      importer && /\/error\.js$/.test(id) ? { id: ERROR[kind], external: 'absolute' } : null,
   };
   const platform = kind === '.cjs' ? 'node' : 'browser';
   const format = kind === '.cjs' ? { format: 'cjs', exports: 'named' } : { format: 'esm' };
   try {
-    const bundled = await rolldown({ input: source(entry), platform, plugins: [shared, glueFactory], transform: { define } });
+    const bundled = await rolldown({
+      input: source(entry),
+      platform,
+      plugins: [shared, glueFactory],
+      transform: { define },
+    });
     await bundled.write({ file: join(dist, output), ...format });
     await bundled.close();
   } catch (problem) {

@@ -65,4 +65,5 @@ return { ${exported.join(', ')}, abandon };
 `;
 }
 
-const unexpected = (what) => new Problem(`The glue of wasm-bindgen ${what}, which scripts/lib/glue.mjs does not expect.`);
+const unexpected = (what) =>
+  new Problem(`The glue of wasm-bindgen ${what}, which scripts/lib/glue.mjs does not expect.`);

@@ -1,11 +1,13 @@
 //! Minima, maxima and saddles, with and without a tolerance \[Patane09, section 3\].
 
+use super::arrays::{filled, pieces, push, ranges};
 use super::link::LinkScratch;
 use super::order::VertexOrder;
-use super::scalar_field::ScalarField;
-use crate::error::{OptionError, Result};
+use super::scalar_field::{OnMesh, Part, ScalarField};
+use crate::error::{FieldError, OptionError, OutOfMemory, Result};
 use crate::mesh::{Connectivity, LinkKind};
-use crate::support::watch::Watch;
+use crate::support::named::named;
+use crate::support::watch::{Phase, Watch};
 
 /// What kind of critical point a vertex is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,6 +19,8 @@ pub enum CriticalKind {
     /// Empty upper link.
     Maximum,
 }
+
+named! { CriticalKind { Minimum = "minimum", Saddle = "saddle", Maximum = "maximum" } }
 
 /// One critical vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,10 +53,17 @@ pub struct CriticalCounts {
 /// The critical points of a field.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct CriticalPoints {
-    /// By ascending vertex.
+    /// The points by ascending vertex.
     pub points: Vec<CriticalPoint>,
-    /// Their numbers.
+    /// How many there are of each kind.
     pub counts: CriticalCounts,
+}
+
+impl OnMesh for CriticalPoints {
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory> {
+        self.points.iter_mut().for_each(|point| part.vertex(&mut point.vertex));
+        Ok(())
+    }
 }
 
 /// What δ is measured in.
@@ -65,6 +76,8 @@ pub enum DeltaScale {
     Absolute,
 }
 
+named! { DeltaScale { Relative = "relative", Absolute = "absolute" } }
+
 /// How saddles are found where link vertices lie within δ of the vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LinkReading {
@@ -76,6 +89,8 @@ pub enum LinkReading {
     Skip,
 }
 
+named! { LinkReading { Consecutive = "consecutive", Skip = "skip" } }
+
 /// When a vertex is an extremum at δ > 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExtremumRule {
@@ -86,6 +101,8 @@ pub enum ExtremumRule {
     /// are not nested; a vertex with all its link within δ counts as a minimum. For comparison only.
     Literal,
 }
+
+named! { ExtremumRule { Strict = "strict", Literal = "literal" } }
 
 /// How [`critical_points`] classifies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -114,7 +131,7 @@ pub struct DeltaOptions {
 /// gives no critical point.
 ///
 /// # Errors
-/// `InvalidOption` where δ is negative or not finite; `Cancelled`.
+/// `InvalidOption` where δ is negative or not finite; `Cancelled`, `OutOfMemory`.
 ///
 /// # Example
 /// ```
@@ -131,10 +148,10 @@ pub fn critical_points(field: &ScalarField<'_>, options: &DeltaOptions, watch: &
     if !(options.delta.is_finite() && options.delta >= 0.0) {
         return Err(OptionError::invalid("delta", "a finite number that is not negative").into());
     }
-    watch.tick(30 * values.len() as u64)?;
     if options.delta == 0.0 {
-        return Ok(exact(connectivity, order));
+        return Ok(field.on_whole(exact(connectivity, order, watch)?)?);
     }
+    watch.tick(3 * connectivity.edges().len() as u64)?;
     let delta = match options.scale {
         DeltaScale::Absolute => options.delta,
         DeltaScale::Relative => options.delta * largest_edge_difference(field),
@@ -143,18 +160,44 @@ pub fn critical_points(field: &ScalarField<'_>, options: &DeltaOptions, watch: &
         let difference = values[j as usize] - values[i as usize];
         i8::from(difference > delta) - i8::from(difference < -delta)
     };
-    Ok(classify(connectivity, options, false, &sign_changes(connectivity, sign), sign))
+    let mut plan = watch.plan(&STEPS);
+    plan.begin(TICKS[0] * connectivity.triangles().len() as u64)?;
+    let states = sign_changes(connectivity, sign, watch)?;
+    plan.begin(TICKS[1] * values.len() as u64)?;
+    let found = classify(connectivity, options, false, &states, sign, watch)?;
+    plan.finish()?;
+    Ok(field.on_whole(found)?)
 }
 
+/// The shares of the pass over the triangles and of that over the vertices.
+const STEPS: [(Phase, f64); 2] = [(Phase::Field, 2.0), (Phase::Field, 1.0)];
+/// The work with one triangle and with one vertex.
+const TICKS: [u64; 2] = [8, 10];
+
 /// The critical points at δ = 0, where no link vertex is neutral and so all readings and rules agree.
-pub(super) fn exact(connectivity: &Connectivity, order: VertexOrder<'_>) -> CriticalPoints {
-    exact_from(connectivity, order, &exact_changes(connectivity, order))
+pub(super) fn exact(
+    connectivity: &Connectivity,
+    order: VertexOrder<'_>,
+    watch: &Watch<'_>,
+) -> Result<CriticalPoints, FieldError> {
+    let mut plan = watch.plan(&STEPS);
+    plan.begin(TICKS[0] * connectivity.triangles().len() as u64)?;
+    let states = exact_changes(connectivity, order, watch)?;
+    plan.begin(TICKS[1] * connectivity.vertex_count() as u64)?;
+    let found = exact_from(connectivity, order, &states, watch)?;
+    plan.finish()?;
+    Ok(found)
 }
 
 #[inline(never)]
-fn exact_from(connectivity: &Connectivity, order: VertexOrder<'_>, states: &[u32]) -> CriticalPoints {
+fn exact_from(
+    connectivity: &Connectivity,
+    order: VertexOrder<'_>,
+    states: &[u32],
+    watch: &Watch<'_>,
+) -> Result<CriticalPoints, FieldError> {
     let options = DeltaOptions::default();
-    classify(connectivity, &options, true, states, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
+    classify(connectivity, &options, true, states, |i, j| 2 * i8::from(order.is_below(i, j)) - 1, watch)
 }
 
 /// The critical points at δ = 0, and how near the values around them are.
@@ -167,36 +210,42 @@ pub(super) struct Measured {
     pub(super) largest: f64,
 }
 
-/// As [`sign_changes`], for δ = 0 and with the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
+/// Does what [`sign_changes`] does for δ = 0, and finds the differences. (Bits of numbers that are not negative are ordered as the numbers are.)
 #[inline(never)]
-pub(super) fn measured(connectivity: &Connectivity, order: VertexOrder<'_>) -> Measured {
+pub(super) fn measured(
+    connectivity: &Connectivity,
+    order: VertexOrder<'_>,
+    watch: &Watch<'_>,
+) -> Result<Measured, FieldError> {
     let values = order.values();
-    let mut states = vec![0_u32; connectivity.vertex_count()];
-    let mut nearest = vec![u64::MAX; connectivity.vertex_count()];
+    let mut states = filled(0_u32, connectivity.vertex_count())?;
+    let mut nearest = filled(u64::MAX, connectivity.vertex_count())?;
     let mut largest = 0_u64;
-    for &[a, b, c] in connectivity.triangles() {
-        let (f, g, h) = (values[a as usize], values[b as usize], values[c as usize]);
-        let (ab, bc, ca) = (order.is_below(a, b), order.is_below(b, c), order.is_below(c, a));
-        let (x, y, z) = ((g - f).abs().to_bits(), (h - g).abs().to_bits(), (f - h).abs().to_bits());
-        let (xy, yz, zx) = (x.min(y), y.min(z), z.min(x));
-        largest = largest.max(x.max(y).max(z));
-        // Three calls: a loop would not be unrolled.
-        let mut corner = |v: u32, next: bool, previous: bool, near: u64| {
-            // The vertex is below the next, and the previous one is below it: a change.
-            let is_change = u32::from(next == previous);
-            let (below, above) = (u32::from(!next | previous), u32::from(next | !previous));
-            let state = &mut states[v as usize];
-            *state = (*state + is_change * ONE_CHANGE) | (below * SAW_BELOW) | (above * SAW_ABOVE);
-            let near = near | u64::from(1 - is_change) << 63;
-            let known = &mut nearest[v as usize];
-            *known = near.min(*known);
-        };
-        corner(a, ab, ca, zx);
-        corner(b, bc, ab, xy);
-        corner(c, ca, bc, yz);
+    for piece in pieces(connectivity.triangles(), 2 * TICKS[0], watch) {
+        for &[a, b, c] in piece? {
+            let (f, g, h) = (values[a as usize], values[b as usize], values[c as usize]);
+            let (ab, bc, ca) = (order.is_below(a, b), order.is_below(b, c), order.is_below(c, a));
+            let (x, y, z) = ((g - f).abs().to_bits(), (h - g).abs().to_bits(), (f - h).abs().to_bits());
+            let (xy, yz, zx) = (x.min(y), y.min(z), z.min(x));
+            largest = largest.max(x.max(y).max(z));
+            // Three calls: a loop would not be unrolled.
+            let mut corner = |v: u32, next: bool, previous: bool, near: u64| {
+                // The vertex is below the next, and the previous one is below it: a change.
+                let is_change = u32::from(next == previous);
+                let (below, above) = (u32::from(!next | previous), u32::from(next | !previous));
+                let state = &mut states[v as usize];
+                *state = (*state + is_change * ONE_CHANGE) | (below * SAW_BELOW) | (above * SAW_ABOVE);
+                let near = near | u64::from(1 - is_change) << 63;
+                let known = &mut nearest[v as usize];
+                *known = near.min(*known);
+            };
+            corner(a, ab, ca, zx);
+            corner(b, bc, ab, xy);
+            corner(c, ca, bc, yz);
+        }
     }
-    let found = exact_from(connectivity, order, &states);
-    Measured { found, nearest, largest: f64::from_bits(largest) }
+    let found = exact_from(connectivity, order, &states, watch)?;
+    Ok(Measured { found, nearest, largest: f64::from_bits(largest) })
 }
 
 /// The largest |f_i − f_j| over the edges: what a relative δ is a fraction of.
@@ -212,8 +261,12 @@ pub fn largest_edge_difference(field: &ScalarField<'_>) -> f64 {
 
 /// The states of all vertices at δ = 0, see [`sign_changes`].
 #[inline(never)]
-pub(super) fn exact_changes(connectivity: &Connectivity, order: VertexOrder<'_>) -> Vec<u32> {
-    sign_changes(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1)
+pub(super) fn exact_changes(
+    connectivity: &Connectivity,
+    order: VertexOrder<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, FieldError> {
+    sign_changes(connectivity, |i, j| 2 * i8::from(order.is_below(i, j)) - 1, watch)
 }
 
 /// Bits of the state that [`sign_changes`] leaves at a vertex: which signs its link vertices have, and above them the number of
@@ -227,21 +280,27 @@ pub(super) const ONE_CHANGE: u32 = 8;
 
 /// One pass over the triangles: a triangle (i, j, k) adds a change of sign to i exactly where j and k lie on opposite
 /// sides of i, so no link needs to be ordered. `sign(i, j)` is antisymmetric: the side of i on which j lies.
-pub(super) fn sign_changes(connectivity: &Connectivity, sign: impl Fn(u32, u32) -> i8) -> Vec<u32> {
-    let mut states = vec![0_u32; connectivity.vertex_count()];
-    for &[a, b, c] in connectivity.triangles() {
-        let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));
-        // Three calls: a loop would not be unrolled.
-        let mut corner = |v: u32, next: i32, previous: i32| {
-            let state = &mut states[v as usize];
-            let change = u32::from(next * previous < 0) * ONE_CHANGE;
-            *state = (*state + change) | (SAW_BELOW << (next + 1)) | (SAW_BELOW << (previous + 1));
-        };
-        corner(a, ab, -ca);
-        corner(b, bc, -ab);
-        corner(c, ca, -bc);
+fn sign_changes(
+    connectivity: &Connectivity,
+    sign: impl Fn(u32, u32) -> i8,
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, FieldError> {
+    let mut states = filled(0_u32, connectivity.vertex_count())?;
+    for piece in pieces(connectivity.triangles(), TICKS[0], watch) {
+        for &[a, b, c] in piece? {
+            let (ab, bc, ca) = (i32::from(sign(a, b)), i32::from(sign(b, c)), i32::from(sign(c, a)));
+            // Three calls: a loop would not be unrolled.
+            let mut corner = |v: u32, next: i32, previous: i32| {
+                let state = &mut states[v as usize];
+                let change = u32::from(next * previous < 0) * ONE_CHANGE;
+                *state = (*state + change) | (SAW_BELOW << (next + 1)) | (SAW_BELOW << (previous + 1));
+            };
+            corner(a, ab, -ca);
+            corner(b, bc, -ab);
+            corner(c, ca, -bc);
+        }
     }
-    states
+    Ok(states)
 }
 
 fn classify(
@@ -250,56 +309,60 @@ fn classify(
     exact: bool,
     states: &[u32],
     sign: impl Fn(u32, u32) -> i8,
-) -> CriticalPoints {
-    let mut scratch = LinkScratch::new(connectivity.vertex_count());
+    watch: &Watch<'_>,
+) -> Result<CriticalPoints, FieldError> {
+    let mut scratch = LinkScratch::new(connectivity.vertex_count())?;
     let mut found = CriticalPoints::default();
     let mut index_sum = 0_i64;
-    for (vertex, (&state, &link_kind)) in states.iter().zip(connectivity.link_kinds()).enumerate() {
-        let vertex = vertex as u32;
-        let changes = state / ONE_CHANGE;
-        let mut on_boundary = false;
-        let saddle_multiplicity = match link_kind {
-            LinkKind::Isolated => {
-                index_sum += 1;
-                continue;
-            }
-            LinkKind::Cycle if options.link == LinkReading::Consecutive || state & SAW_NEUTRAL == 0 => {
-                // Lower and upper link alternate around the cycle: as many components each as half the changes; a whole
-                // cycle below, as an empty one, has characteristic 0.
-                index_sum += 1 - i64::from(changes / 2);
-                if changes == 2 {
+    let kinds = connectivity.link_kinds();
+    for range in ranges(states.len(), TICKS[1], watch) {
+        for index in range? {
+            let (vertex, state, link_kind) = (index as u32, states[index], kinds[index]);
+            let changes = state / ONE_CHANGE;
+            let mut on_boundary = false;
+            let saddle_multiplicity = match link_kind {
+                LinkKind::Isolated => {
+                    index_sum += 1;
                     continue;
                 }
-                (changes / 2).saturating_sub(1)
+                LinkKind::Cycle if options.link == LinkReading::Consecutive || state & SAW_NEUTRAL == 0 => {
+                    // Lower and upper link alternate around the cycle: as many components each as half the changes; a whole
+                    // cycle below, as an empty one, has characteristic 0.
+                    index_sum += 1 - i64::from(changes / 2);
+                    if changes == 2 {
+                        continue;
+                    }
+                    (changes / 2).saturating_sub(1)
+                }
+                _ => {
+                    let link = scratch.inspect(connectivity, vertex, |j| sign(vertex, j))?;
+                    on_boundary = link.on_boundary;
+                    index_sum += 1 - link.lower_characteristic;
+                    link.lower_components.max(link.upper_components).saturating_sub(1)
+                }
+            };
+            let kind = match (options.rule, state & SAW_ANY) {
+                (_, SAW_ABOVE) => CriticalKind::Minimum,
+                (_, SAW_BELOW) => CriticalKind::Maximum,
+                (ExtremumRule::Literal, signs) if signs & SAW_BELOW == 0 => CriticalKind::Minimum,
+                (ExtremumRule::Literal, signs) if signs & SAW_ABOVE == 0 => CriticalKind::Maximum,
+                // On a link in several pieces one side alone may have several components: that is no saddle, or an extremum
+                // would turn into one where δ reaches its first link vertex.
+                (_, signs) if saddle_multiplicity > 0 && signs & SAW_BOTH == SAW_BOTH => CriticalKind::Saddle,
+                _ => continue,
+            };
+            let multiplicity = match kind {
+                CriticalKind::Saddle => saddle_multiplicity,
+                CriticalKind::Minimum | CriticalKind::Maximum => 1,
+            };
+            match kind {
+                CriticalKind::Minimum => found.counts.minima += 1,
+                CriticalKind::Maximum => found.counts.maxima += 1,
+                CriticalKind::Saddle => found.counts.saddles += multiplicity,
             }
-            _ => {
-                let link = scratch.inspect(connectivity, vertex, |j| sign(vertex, j));
-                on_boundary = link.on_boundary;
-                index_sum += 1 - link.lower_characteristic;
-                link.lower_components.max(link.upper_components).saturating_sub(1)
-            }
-        };
-        let kind = match (options.rule, state & SAW_ANY) {
-            (_, SAW_ABOVE) => CriticalKind::Minimum,
-            (_, SAW_BELOW) => CriticalKind::Maximum,
-            (ExtremumRule::Literal, signs) if signs & SAW_BELOW == 0 => CriticalKind::Minimum,
-            (ExtremumRule::Literal, signs) if signs & SAW_ABOVE == 0 => CriticalKind::Maximum,
-            // On a link in several pieces one side alone may have several components: that is no saddle, or an extremum
-            // would turn into one where δ reaches its first link vertex.
-            (_, signs) if saddle_multiplicity > 0 && signs & SAW_BOTH == SAW_BOTH => CriticalKind::Saddle,
-            _ => continue,
-        };
-        let multiplicity = match kind {
-            CriticalKind::Saddle => saddle_multiplicity,
-            CriticalKind::Minimum | CriticalKind::Maximum => 1,
-        };
-        match kind {
-            CriticalKind::Minimum => found.counts.minima += 1,
-            CriticalKind::Maximum => found.counts.maxima += 1,
-            CriticalKind::Saddle => found.counts.saddles += multiplicity,
+            push(&mut found.points, CriticalPoint { vertex, kind, multiplicity, on_boundary })?;
         }
-        found.points.push(CriticalPoint { vertex, kind, multiplicity, on_boundary });
     }
     found.counts.index_sum = exact.then_some(index_sum);
-    found
+    Ok(found)
 }

@@ -1,11 +1,12 @@
 //! At which δ every critical vertex stops being one, and so C_δ for all δ at once \[Patane09, section 3\].
 
+use super::arrays::{filled, pieces, with_room};
 use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, Measured, measured};
 use super::link::{FEW, LinkScratch};
-use super::scalar_field::ScalarField;
-use crate::error::Result;
+use super::scalar_field::{OnMesh, Part, ScalarField};
+use crate::error::{FieldError, OutOfMemory, Result};
 use crate::mesh::{Connectivity, LinkKind};
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// A critical vertex and the δ at which it stops being one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,6 +68,13 @@ impl DeltaHierarchy {
     }
 }
 
+impl OnMesh for DeltaHierarchy {
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory> {
+        self.points.iter_mut().for_each(|point| part.vertex(&mut point.vertex));
+        Ok(())
+    }
+}
+
 /// For every critical vertex the δ at which it stops being one, by the strict rule for extrema.
 ///
 /// # Definition
@@ -79,7 +87,7 @@ impl DeltaHierarchy {
 /// the absolute ones, where D is [`largest_edge_difference`]. One pass over the triangles, and a sort.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`, `OutOfMemory`.
 ///
 /// # Example
 /// ```
@@ -94,37 +102,47 @@ impl DeltaHierarchy {
 /// ```
 pub fn delta_hierarchy(field: &ScalarField<'_>, link: LinkReading, watch: &Watch<'_>) -> Result<DeltaHierarchy> {
     let (connectivity, values, order) = (field.mesh().connectivity(), field.values(), field.order());
-    watch.tick(60 * values.len() as u64)?;
-    let Measured { found, nearest, largest } = measured(connectivity, order);
+    let mut plan = watch.plan(&[(Phase::Field, 2.0), (Phase::Field, 3.0)]);
+    plan.begin(16 * connectivity.triangles().len() as u64 + 10 * values.len() as u64)?;
+    let Measured { found, nearest, largest } = measured(connectivity, order, watch)?;
+    plan.begin(200 * found.points.len() as u64)?;
     let kinds = connectivity.link_kinds();
     let mut thresholds = Thresholds { connectivity, values, link, scratch: None, parts: Vec::new(), upper: Vec::new() };
-    let mut points = Vec::with_capacity(found.points.len());
+    let mut points = with_room(found.points.len())?;
     let counts = found.counts;
-    let mut keys = Vec::with_capacity((counts.minima + counts.maxima + counts.saddles) as usize);
-    for &CriticalPoint { vertex, kind, multiplicity, .. } in &found.points {
-        let is_simple =
-            multiplicity == 1 && kinds[vertex as usize] == LinkKind::Cycle && link == LinkReading::Consecutive;
-        let (vanishes_at_absolute, vanishes_at);
-        if kind != CriticalKind::Saddle || is_simple {
-            // A strict extremum lasts until δ reaches the nearest of its link vertices. A simple saddle has four link edges with
-            // its ends on opposite sides, and needs them all.
-            vanishes_at_absolute = f64::from_bits(nearest[vertex as usize] & !SIGN);
-            vanishes_at = relative(vanishes_at_absolute, largest);
-            keys.push(key(vanishes_at, kind));
-        } else {
-            thresholds.find(vertex);
-            // Parts without a positive δ are told from equal neighbours by ids alone.
-            let absolute = |part: usize| thresholds.parts.get(part).map_or(0.0, |&bits| f64::from_bits(bits));
-            vanishes_at_absolute = absolute(0);
-            vanishes_at = relative(vanishes_at_absolute, largest);
-            for part in 0..multiplicity as usize {
-                keys.push(key(relative(absolute(part), largest), kind));
+    let mut keys = with_room((counts.minima + counts.maxima + counts.saddles) as usize)?;
+    for piece in pieces(&found.points, 100, watch) {
+        for &CriticalPoint { vertex, kind, multiplicity, .. } in piece? {
+            let is_simple =
+                multiplicity == 1 && kinds[vertex as usize] == LinkKind::Cycle && link == LinkReading::Consecutive;
+            let (vanishes_at_absolute, vanishes_at);
+            if kind != CriticalKind::Saddle || is_simple {
+                // A strict extremum lasts until δ reaches the nearest of its link vertices. A simple saddle has four link edges with
+                // its ends on opposite sides, and needs them all.
+                vanishes_at_absolute = f64::from_bits(nearest[vertex as usize] & !SIGN);
+                vanishes_at = relative(vanishes_at_absolute, largest);
+                keys.push(key(vanishes_at, kind));
+            } else {
+                thresholds.find(vertex)?;
+                // Parts without a positive δ are told from equal neighbours by ids alone.
+                let absolute = |part: usize| thresholds.parts.get(part).map_or(0.0, |&bits| f64::from_bits(bits));
+                vanishes_at_absolute = absolute(0);
+                vanishes_at = relative(vanishes_at_absolute, largest);
+                for part in 0..multiplicity as usize {
+                    keys.push(key(relative(absolute(part), largest), kind));
+                }
             }
+            points.push(HierarchyPoint { vertex, kind, vanishes_at, vanishes_at_absolute });
         }
-        points.push(HierarchyPoint { vertex, kind, vanishes_at, vanishes_at_absolute });
     }
-    let curve = curve(&sorted(&keys), &counts);
-    Ok(DeltaHierarchy { points, curve, index_sum: counts.index_sum.unwrap_or_default() })
+    drop(nearest);
+    watch.tick(60 * keys.len() as u64)?;
+    let sorted = sorted(&keys)?;
+    drop(keys);
+    watch.tick(40 * sorted.len() as u64)?;
+    let curve = curve(&sorted, &counts)?;
+    plan.finish()?;
+    Ok(field.on_whole(DeltaHierarchy { points, curve, index_sum: counts.index_sum.unwrap_or_default() })?)
 }
 
 /// The bit of a number that has its sign.
@@ -143,14 +161,15 @@ struct Thresholds<'a> {
 }
 
 impl Thresholds<'_> {
-    /// Of a saddle.
-    fn find(&mut self, vertex: u32) {
+    /// Finds the δ of the parts of one saddle.
+    fn find(&mut self, vertex: u32) -> Result<(), OutOfMemory> {
         let is_cycle = self.connectivity.link_kinds()[vertex as usize] == LinkKind::Cycle;
         self.parts.clear();
         if !is_cycle || self.link == LinkReading::Skip {
-            self.components(vertex, is_cycle);
+            self.components(vertex, is_cycle)
         } else {
             self.changes(vertex);
+            Ok(())
         }
     }
 
@@ -177,14 +196,17 @@ impl Thresholds<'_> {
     }
 
     /// Part j of a saddle lasts while the lower or the upper link has more than j components, and both have one.
-    fn components(&mut self, vertex: u32, is_cycle: bool) {
+    fn components(&mut self, vertex: u32, is_cycle: bool) -> Result<(), OutOfMemory> {
         let (connectivity, values) = (self.connectivity, self.values);
-        let scratch = self.scratch.get_or_insert_with(|| LinkScratch::new(connectivity.vertex_count()));
-        scratch.measure(connectivity, vertex, |j| values[j as usize] - values[vertex as usize]);
-        scratch.component_ends(&mut self.parts);
+        let scratch = match &mut self.scratch {
+            Some(scratch) => scratch,
+            none => none.insert(LinkScratch::new(connectivity.vertex_count())?),
+        };
+        scratch.measure(connectivity, vertex, |j| values[j as usize] - values[vertex as usize])?;
+        scratch.component_ends(&mut self.parts)?;
         if !is_cycle {
             scratch.turn_over();
-            scratch.component_ends(&mut self.upper);
+            scratch.component_ends(&mut self.upper)?;
             let deepest = |ends: &[u64]| ends.first().copied().unwrap_or_default();
             let both = deepest(&self.parts).min(deepest(&self.upper));
             self.parts.resize(self.parts.len().max(self.upper.len()), 0);
@@ -199,6 +221,7 @@ impl Thresholds<'_> {
         if !self.parts.is_empty() {
             self.parts.remove(0);
         }
+        Ok(())
     }
 }
 
@@ -237,17 +260,17 @@ fn key(relative: f64, kind: CriticalKind) -> u64 {
 /// Sorts keys: into buckets of equal width over [0, 1] first, which for most fields hold few each.
 // By itself, as `curve` is: engines optimise a function when it is called again, not within one call.
 #[inline(never)]
-fn sorted(keys: &[u64]) -> Vec<u64> {
+fn sorted(keys: &[u64]) -> Result<Vec<u64>, FieldError> {
     let buckets = (keys.len() / 2).max(1);
     let bucket = |key: u64| ((f64::from_bits(key >> 2) * buckets as f64) as usize).min(buckets - 1);
-    let mut ends = vec![0_u32; buckets + 1];
+    let mut ends = filled(0_u32, buckets + 1)?;
     for &key in keys {
         ends[bucket(key) + 1] += 1;
     }
     for i in 0..buckets {
         ends[i + 1] += ends[i];
     }
-    let mut sorted = vec![0; keys.len()];
+    let mut sorted = filled(0, keys.len())?;
     for &key in keys {
         // Starts turn into ends.
         let place = &mut ends[bucket(key)];
@@ -272,18 +295,19 @@ fn sorted(keys: &[u64]) -> Vec<u64> {
         }
         sorted[place] = key;
     }
-    sorted
+    Ok(sorted)
 }
 
 #[inline(never)]
-fn curve(keys: &[u64], counts: &CriticalCounts) -> DeltaCurve {
+fn curve(keys: &[u64], counts: &CriticalCounts) -> Result<DeltaCurve, OutOfMemory> {
     let mut left = [counts.minima, counts.saddles, counts.maxima];
-    let rows = keys.len() + 1;
+    // Row 0, and one for every key that is another than the one before.
+    let rows = 1 + keys.len().min(1) + keys.windows(2).filter(|pair| pair[0] >> 2 != pair[1] >> 2).count();
     let mut curve = DeltaCurve {
-        delta: Vec::with_capacity(rows),
-        minima: Vec::with_capacity(rows),
-        maxima: Vec::with_capacity(rows),
-        saddles: Vec::with_capacity(rows),
+        delta: with_room(rows)?,
+        minima: with_room(rows)?,
+        maxima: with_room(rows)?,
+        saddles: with_room(rows)?,
     };
     let mut delta = 0;
     for &key in keys.iter().chain(&[u64::MAX]) {
@@ -298,5 +322,5 @@ fn curve(keys: &[u64], counts: &CriticalCounts) -> DeltaCurve {
             left[(key & 3) as usize] -= 1;
         }
     }
-    curve
+    Ok(curve)
 }

@@ -1,8 +1,11 @@
 //! Components of growing sublevel or superlevel sets, by union and find.
 
+use super::arrays::ranges;
 use super::saddles::Saddles;
 use super::sweep::Sweep;
+use crate::error::FieldError;
 use crate::support::union_find::UnionFind;
+use crate::support::watch::Watch;
 
 /// The components of what a sweep has met, each named by the extremum that it began with.
 ///
@@ -46,19 +49,35 @@ impl<'a> Merging<'a> {
         Some(Merged { ended, survivor })
     }
 
-    /// Visits the saddles in the order of the sweep and tells for each merger the index of its saddle.
-    pub(super) fn visit(&mut self, saddles: &Saddles, ascending: &[u32], mut tell: impl FnMut(u32, Merged)) {
+    /// Visits the saddles in the order of the sweep, but for blocked ones, and tells for each merger the index of its saddle.
+    ///
+    /// # Errors
+    /// `Cancelled`, and those of `tell`.
+    pub(super) fn visit(
+        &mut self,
+        saddles: &Saddles,
+        ascending: &[u32],
+        is_blocked: &dyn Fn(u32) -> bool,
+        watch: &Watch<'_>,
+        mut tell: impl FnMut(u32, Merged) -> Result<(), FieldError>,
+    ) -> Result<(), FieldError> {
         let downwards = self.sweep.is_downwards();
-        for i in 0..ascending.len() {
-            let index = ascending[if downwards { ascending.len() - 1 - i } else { i }];
-            let saddle = saddles.get(index);
-            let sides = if downwards { saddle.upper } else { saddle.lower };
-            for k in 1..sides.len() {
-                if let Some(merged) = self.join(sides[0], sides[k]) {
-                    tell(index, merged);
+        for range in ranges(ascending.len(), 100, watch) {
+            for i in range? {
+                let index = ascending[if downwards { ascending.len() - 1 - i } else { i }];
+                let saddle = saddles.get(index);
+                if is_blocked(saddle.vertex) {
+                    continue;
+                }
+                let sides = if downwards { saddle.upper } else { saddle.lower };
+                for k in 1..sides.len() {
+                    if let Some(merged) = self.join(sides[0], sides[k]) {
+                        tell(index, merged)?;
+                    }
                 }
             }
         }
+        Ok(())
     }
 
     /// Whether nothing took over the component that began with `v`.

@@ -1,6 +1,7 @@
 //! Scalar fields on a mesh: order of the vertices, critical points and their hierarchy over δ, persistence, feature points,
 //! simplification, the Morse complex, level sets.
 
+mod arrays;
 mod critical;
 
 mod delta_hierarchy;

@@ -17,7 +17,7 @@ impl<'a> VertexOrder<'a> {
     #[inline(never)]
     pub fn new(values: &'a [f64], vertices: usize) -> Result<Self, FieldError> {
         if values.len() != vertices {
-            return Err(FieldError::LengthMismatch { expected: vertices, actual: values.len() });
+            return Err(FieldError::length_mismatch(vertices, values.len(), 0));
         }
         // The sum of v·0 is zero unless a value is not finite: one pass without branches; the search is for the message.
         let (mut nothing, mut min, mut max) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
@@ -81,9 +81,13 @@ impl ValueRange {
 /// The range of the values at the vertices that belong to a triangle.
 ///
 /// # Errors
-/// As [`VertexOrder::new`].
+/// Those of [`VertexOrder::new`].
 pub fn value_range(connectivity: &Connectivity, values: &[f64]) -> Result<ValueRange, FieldError> {
-    let values = VertexOrder::new(values, connectivity.vertex_count())?.values();
+    let (vertices, triangles) = (connectivity.vertex_count(), connectivity.triangles().len());
+    if values.len() != vertices {
+        return Err(FieldError::length_mismatch(vertices, values.len(), triangles));
+    }
+    let values = VertexOrder::new(values, vertices)?.values();
     let kinds = connectivity.link_kinds();
     let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 0..values.len() {

@@ -1,11 +1,17 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
+use super::arrays::{append, numbers, push, ranges};
 use super::critical::{ONE_CHANGE, exact_changes};
 use super::link::{LinkSides, opposite};
 use super::order::VertexOrder;
 use super::sorting::{ascending_bits, sort_by_key};
 use super::steepest::steepest_of;
+use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::watch::Watch;
+
+/// The work with one vertex.
+const EACH: u64 = 20;
 
 /// One vertex with several components of its lower or upper link.
 #[derive(Debug, Clone, Copy)]
@@ -31,106 +37,135 @@ pub(super) struct Saddles {
 }
 
 impl Saddles {
-    /// With some vertices of each component, found in the least time.
-    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
-        Self::with_tips(mesh, order, &[], false)
+    /// Takes up some vertices of each component, found in the least time.
+    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, watch: &Watch<'_>) -> Result<Self, FieldError> {
+        Self::with_tips(mesh, order, &[], false, watch)
     }
 
-    /// As if the vertices in `tips` were raised a little (`upper`), or lowered: around such a vertex, what is farther out in that
+    /// Does so as if the vertices in `tips` were raised a little (`upper`), or lowered: around such a vertex, what is farther out in that
     /// direction is joined to the vertex itself. Nothing changes at one that is an extremum.
     #[inline(never)]
-    pub(super) fn with_tips(mesh: &TriMesh, order: VertexOrder<'_>, tips: &[bool], upper: bool) -> Self {
+    pub(super) fn with_tips(
+        mesh: &TriMesh,
+        order: VertexOrder<'_>,
+        tips: &[bool],
+        upper: bool,
+        watch: &Watch<'_>,
+    ) -> Result<Self, FieldError> {
         let connectivity = mesh.connectivity();
-        let states = exact_changes(connectivity, order);
+        let states = exact_changes(connectivity, order, watch)?;
         let kinds = connectivity.link_kinds();
-        let mut sides = LinkSides::new(mesh.vertex_count());
-        let mut this = Self::empty();
+        let mut sides = LinkSides::new(mesh.vertex_count())?;
+        let mut this = Self::empty()?;
         let mut above = Vec::new();
-        for v in 0..states.len() as u32 {
-            let changes = states[v as usize] / ONE_CHANGE;
-            let kind = kinds[v as usize];
-            let is_tip = !tips.is_empty() && tips[v as usize];
-            if kind == LinkKind::Cycle && !is_tip {
-                if changes >= 4 {
-                    this.push_changes(mesh, order, v, &mut above);
-                    this.close(v, changes / 2);
+        for range in ranges(states.len(), EACH, watch) {
+            for v in range? {
+                let v = v as u32;
+                let changes = states[v as usize] / ONE_CHANGE;
+                let kind = kinds[v as usize];
+                let is_tip = !tips.is_empty() && tips[v as usize];
+                if kind == LinkKind::Cycle && !is_tip {
+                    if changes >= 4 {
+                        this.push_changes(mesh, order, v, &mut above)?;
+                        this.close(v, changes / 2)?;
+                    }
+                    continue;
                 }
-                continue;
+                sides.inspect(connectivity, v, |j| order.is_below(j, v))?;
+                let tip = is_tip.then_some(upper);
+                this.push_components(v, &sides, tip, &|members| members[0])?;
+                this.close(v, sides.lower_components())?;
             }
-            sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            let tip = is_tip.then_some(upper);
-            this.push_components(v, &sides, tip, &|members| members[0]);
-            this.close(v, sides.lower_components());
         }
-        this
+        Ok(this)
     }
 
-    /// With the steepest vertex of each component, once each. Where the link is a cycle, `upper[i]` lies between `lower[i]` and
+    /// Takes up the steepest vertex of each component, once each. Where the link is a cycle, `upper[i]` lies between `lower[i]` and
     /// the next one.
     #[inline(never)]
-    pub(super) fn steepest(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
+    pub(super) fn steepest(mesh: &TriMesh, order: VertexOrder<'_>, watch: &Watch<'_>) -> Result<Self, FieldError> {
         let connectivity = mesh.connectivity();
-        let states = exact_changes(connectivity, order);
+        let states = exact_changes(connectivity, order, watch)?;
         let kinds = connectivity.link_kinds();
-        let mut sides = LinkSides::new(mesh.vertex_count());
-        let mut this = Self::empty();
-        for v in 0..states.len() as u32 {
-            if kinds[v as usize] == LinkKind::Cycle && states[v as usize] < 4 * ONE_CHANGE {
-                continue;
+        let mut sides = LinkSides::new(mesh.vertex_count())?;
+        let mut this = Self::empty()?;
+        for range in ranges(states.len(), EACH, watch) {
+            for v in range? {
+                let v = v as u32;
+                if kinds[v as usize] == LinkKind::Cycle && states[v as usize] < 4 * ONE_CHANGE {
+                    continue;
+                }
+                sides.inspect(connectivity, v, |j| order.is_below(j, v))?;
+                this.push_components(v, &sides, None, &|members| steepest_of(mesh, order, v, members))?;
+                this.close(v, sides.lower_components())?;
             }
-            sides.inspect(connectivity, v, |j| order.is_below(j, v));
-            this.push_components(v, &sides, None, &|members| steepest_of(mesh, order, v, members));
-            this.close(v, sides.lower_components());
         }
-        this
+        Ok(this)
     }
 
-    fn empty() -> Self {
-        Self { vertices: Vec::new(), offsets: vec![0], first: Vec::new(), lower_components: Vec::new() }
+    fn empty() -> Result<Self, OutOfMemory> {
+        let mut this =
+            Self { vertices: Vec::new(), offsets: Vec::new(), first: Vec::new(), lower_components: Vec::new() };
+        push(&mut this.offsets, 0)?;
+        Ok(this)
     }
 
     /// One vertex of each component; before them the vertex itself, on the upper or lower side, if it is a tip there.
-    fn push_components(&mut self, v: u32, sides: &LinkSides, upper_tip: Option<bool>, pick: &dyn Fn(&[u32]) -> u32) {
+    fn push_components(
+        &mut self,
+        v: u32,
+        sides: &LinkSides,
+        upper_tip: Option<bool>,
+        pick: &dyn Fn(&[u32]) -> u32,
+    ) -> Result<(), OutOfMemory> {
         for upper in [false, true] {
             if upper_tip == Some(upper) {
-                self.first.push(v);
+                push(&mut self.first, v)?;
             }
             for &component in sides.components() {
                 if component.lower != upper {
-                    self.first.push(pick(sides.members(component)));
+                    push(&mut self.first, pick(sides.members(component)))?;
                 }
             }
-            self.offsets.push(self.first.len() as u32);
+            push(&mut self.offsets, self.first.len() as u32)?;
         }
+        Ok(())
     }
 
     /// Around a cycle, both ends of every edge between a lower and an upper vertex: each component has two, or twice the same.
-    fn push_changes(&mut self, mesh: &TriMesh, order: VertexOrder<'_>, v: u32, above: &mut Vec<u32>) {
+    fn push_changes(
+        &mut self,
+        mesh: &TriMesh,
+        order: VertexOrder<'_>,
+        v: u32,
+        above: &mut Vec<u32>,
+    ) -> Result<(), OutOfMemory> {
         above.clear();
         for &t in mesh.connectivity().star(v) {
             let [j, k] = opposite(mesh.connectivity().triangles()[t as usize], v);
             let j_is_lower = order.is_below(j, v);
             if j_is_lower != order.is_below(k, v) {
                 let (low, high) = if j_is_lower { (j, k) } else { (k, j) };
-                self.first.push(low);
-                above.push(high);
+                push(&mut self.first, low)?;
+                push(above, high)?;
             }
         }
-        self.offsets.push(self.first.len() as u32);
-        self.first.extend_from_slice(above);
-        self.offsets.push(self.first.len() as u32);
+        push(&mut self.offsets, self.first.len() as u32)?;
+        append(&mut self.first, above)?;
+        push(&mut self.offsets, self.first.len() as u32)
     }
 
     /// Takes up the vertex whose link vertices were put in last, unless there is but one of each side.
-    fn close(&mut self, v: u32, lower_components: u32) {
-        let [.., start, middle, end] = self.offsets[..] else { return };
+    fn close(&mut self, v: u32, lower_components: u32) -> Result<(), OutOfMemory> {
+        let [.., start, middle, end] = self.offsets[..] else { return Ok(()) };
         if middle - start > 1 || end - middle > 1 {
-            self.vertices.push(v);
-            self.lower_components.push(lower_components);
+            push(&mut self.vertices, v)?;
+            push(&mut self.lower_components, lower_components)?;
         } else {
             self.first.truncate(start as usize);
             self.offsets.truncate(self.offsets.len() - 2);
         }
+        Ok(())
     }
 
     pub(super) fn len(&self) -> usize {
@@ -151,9 +186,9 @@ impl Saddles {
     }
 
     /// Indices of the saddles by ascending (value, id).
-    pub(super) fn ascending(&self, values: &[f64]) -> Vec<u32> {
-        let mut indices: Vec<u32> = (0..self.vertices.len() as u32).collect();
-        sort_by_key(&mut indices, &|i| ascending_bits(values[self.vertices[i as usize] as usize]));
-        indices
+    pub(super) fn ascending(&self, values: &[f64], watch: &Watch<'_>) -> Result<Vec<u32>, FieldError> {
+        let mut indices = numbers(self.vertices.len())?;
+        sort_by_key(&mut indices, &|i| ascending_bits(values[self.vertices[i as usize] as usize]), watch)?;
+        Ok(indices)
     }
 }

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
+use super::arrays::{collected, filled, with_room};
 use super::order::{ValueRange, VertexOrder, value_range};
-use crate::error::{FieldError, OptionError, Result};
+use crate::error::{FieldError, OptionError, OutOfMemory, Result};
 use crate::mesh::{Submesh, TriMesh};
 use crate::support::named::named;
 
@@ -43,12 +44,51 @@ pub struct ScalarField<'a> {
     part: Option<Part>,
 }
 
+/// A result that names vertices or triangles of the mesh that it was found on, or has something for each vertex.
+pub(super) trait OnMesh {
+    /// Turns what is told of a part of a mesh into the same of the whole.
+    ///
+    /// # Errors
+    /// `OutOfMemory`, where there is something for each vertex.
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory>;
+}
+
 /// What the part of a mesh that has values is in the whole.
 #[derive(Debug, Clone)]
-struct Part {
+pub(super) struct Part {
     vertices: Vec<u32>,
     triangles: Vec<u32>,
     whole: TriMesh,
+}
+
+impl Part {
+    /// The vertex of the whole that a vertex of the part is.
+    pub(super) fn vertex(&self, vertex: &mut u32) {
+        *vertex = self.vertices[*vertex as usize];
+    }
+
+    /// The vertices of the whole that vertices of the part are.
+    pub(super) fn vertices(&self, vertices: &mut [u32]) {
+        vertices.iter_mut().for_each(|vertex| self.vertex(vertex));
+    }
+
+    /// The triangles of the whole that triangles of the part are.
+    pub(super) fn triangles(&self, triangles: &mut [u32]) {
+        triangles.iter_mut().for_each(|triangle| *triangle = self.triangles[*triangle as usize]);
+    }
+
+    /// One element for each vertex of the whole: that of the part, where the vertex belongs to it.
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub(super) fn spread<T: Copy>(&self, elements: &mut Vec<T>, elsewhere: T) -> Result<(), OutOfMemory> {
+        let mut all = filled(elsewhere, self.whole.vertex_count())?;
+        for (&vertex, &element) in self.vertices.iter().zip(elements.iter()) {
+            all[vertex as usize] = element;
+        }
+        *elements = all;
+        Ok(())
+    }
 }
 
 impl<'a> ScalarField<'a> {
@@ -64,7 +104,7 @@ impl<'a> ScalarField<'a> {
     /// Checks values of which some may be missing (NaN).
     ///
     /// # Errors
-    /// As [`ScalarField::new`], an infinite value included; `EmptyMesh` where no triangle has three values; `InapplicableOption` for
+    /// Those of [`ScalarField::new`], for an infinite value, too; `EmptyMesh` where no triangle has three values; `InapplicableOption` for
     /// [`Missing::Fill`]: only smoothing can fill.
     pub fn with_missing(mesh: &TriMesh, values: &'a [f64], missing: Missing) -> Result<Self> {
         match missing {
@@ -77,7 +117,7 @@ impl<'a> ScalarField<'a> {
                     return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
                 }
                 let Submesh { mesh: part, vertices, triangles } = mesh.submesh(&|v| !values[v as usize].is_nan())?;
-                let values: Vec<f64> = vertices.iter().map(|&v| values[v as usize]).collect();
+                let values = collected(vertices.len(), vertices.iter().map(|&v| values[v as usize]))?;
                 let range = value_range(part.connectivity(), &values)?;
                 let origin = Part { vertices, triangles, whole: mesh.clone() };
                 Ok(Self { mesh: part, values: Cow::Owned(values), range, part: Some(origin) })
@@ -122,17 +162,21 @@ impl<'a> ScalarField<'a> {
         self.part.as_ref().map_or(&self.mesh, |part| &part.whole)
     }
 
+    /// Turns a result in the ids of [`ScalarField::mesh`] into one in those of the mesh that the field was given on.
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub(super) fn on_whole<R: OnMesh>(&self, mut result: R) -> Result<R, OutOfMemory> {
+        if let Some(part) = &self.part {
+            result.tell_of_whole(part)?;
+        }
+        Ok(result)
+    }
+
     /// Turns vertices of [`ScalarField::mesh`] into those of the mesh that the field was given on.
     pub(crate) fn to_whole(&self, vertices: &mut [u32]) {
         if let Some(part) = &self.part {
-            vertices.iter_mut().for_each(|v| *v = part.vertices[*v as usize]);
-        }
-    }
-
-    /// Turns triangles of [`ScalarField::mesh`] into those of the mesh that the field was given on.
-    pub(crate) fn triangles_to_whole(&self, triangles: &mut [u32]) {
-        if let Some(part) = &self.part {
-            triangles.iter_mut().for_each(|t| *t = part.triangles[*t as usize]);
+            part.vertices(vertices);
         }
     }
 
@@ -155,6 +199,10 @@ impl<'a> ScalarField<'a> {
                     .map_err(|_| FieldError::MissingValue { vertex }),
             }
         };
-        vertices.iter().map(find).collect()
+        let mut found = with_room(vertices.len())?;
+        for vertex in vertices {
+            found.push(find(vertex)?);
+        }
+        Ok(found)
     }
 }

@@ -1,7 +1,16 @@
 //! Steepest paths along edges: where each vertex leads to, upwards and downwards.
 
+use super::arrays::{filled, numbers, pieces, push, ranges};
 use super::order::VertexOrder;
+use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::{Connectivity, TriMesh, difference, norm};
+use crate::support::watch::Watch;
+
+/// The work with one edge.
+const BY_VALUE: u64 = 8;
+const BY_SLOPE: u64 = 20;
+/// The work with one entry of a forest.
+const ENDS: u64 = 10;
 
 /// For every vertex the neighbours that steepest paths go on to; itself where a path ends.
 #[derive(Debug, Clone)]
@@ -13,47 +22,54 @@ pub(super) struct Steepest {
 impl Steepest {
     /// To the lowest and to the highest neighbour: where paths end is all that matters to components.
     #[inline(never)]
-    pub(super) fn by_value(connectivity: &Connectivity, order: VertexOrder<'_>) -> Self {
-        let mut this = Self::nowhere(connectivity.vertex_count());
-        for &[a, b] in connectivity.edges() {
-            let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
-            let (down, up) = (&mut this.down[high as usize], &mut this.up[low as usize]);
-            if order.is_below(low, *down) {
-                *down = low;
-            }
-            if order.is_below(*up, high) {
-                *up = high;
+    pub(super) fn by_value(
+        connectivity: &Connectivity,
+        order: VertexOrder<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, FieldError> {
+        let mut this = Self::nowhere(connectivity.vertex_count())?;
+        for piece in pieces(connectivity.edges(), BY_VALUE, watch) {
+            for &[a, b] in piece? {
+                let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
+                let (down, up) = (&mut this.down[high as usize], &mut this.up[low as usize]);
+                if order.is_below(low, *down) {
+                    *down = low;
+                }
+                if order.is_below(*up, high) {
+                    *up = high;
+                }
             }
         }
-        this
+        Ok(this)
     }
 
     /// Along the steepest edge, as near to the gradient as edges come. Of equally steep edges the one that leads farther in
     /// the order is taken.
     #[inline(never)]
-    pub(super) fn by_slope(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
-        let mut this = Self::nowhere(mesh.vertex_count());
+    pub(super) fn by_slope(mesh: &TriMesh, order: VertexOrder<'_>, watch: &Watch<'_>) -> Result<Self, FieldError> {
+        let mut this = Self::nowhere(mesh.vertex_count())?;
         // Below every slope, so that the first neighbour is taken.
-        let mut down_slopes = vec![-1.0; mesh.vertex_count()];
-        let mut up_slopes = down_slopes.clone();
-        for &[a, b] in mesh.connectivity().edges() {
-            let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
-            let slope = slope(mesh, order, low, high);
-            let (down, best) = (&mut this.down[high as usize], &mut down_slopes[high as usize]);
-            if slope > *best || (slope == *best && order.is_below(low, *down)) {
-                (*down, *best) = (low, slope);
-            }
-            let (up, best) = (&mut this.up[low as usize], &mut up_slopes[low as usize]);
-            if slope > *best || (slope == *best && order.is_below(*up, high)) {
-                (*up, *best) = (high, slope);
+        let mut down_slopes = filled(-1.0, mesh.vertex_count())?;
+        let mut up_slopes = filled(-1.0, mesh.vertex_count())?;
+        for piece in pieces(mesh.connectivity().edges(), BY_SLOPE, watch) {
+            for &[a, b] in piece? {
+                let (low, high) = if order.is_below(a, b) { (a, b) } else { (b, a) };
+                let slope = slope(mesh, order, low, high);
+                let (down, best) = (&mut this.down[high as usize], &mut down_slopes[high as usize]);
+                if slope > *best || (slope == *best && order.is_below(low, *down)) {
+                    (*down, *best) = (low, slope);
+                }
+                let (up, best) = (&mut this.up[low as usize], &mut up_slopes[low as usize]);
+                if slope > *best || (slope == *best && order.is_below(*up, high)) {
+                    (*up, *best) = (high, slope);
+                }
             }
         }
-        this
+        Ok(this)
     }
 
-    fn nowhere(vertices: usize) -> Self {
-        let itself: Vec<u32> = (0..vertices as u32).collect();
-        Self { down: itself.clone(), up: itself }
+    fn nowhere(vertices: usize) -> Result<Self, OutOfMemory> {
+        Ok(Self { down: numbers(vertices)?, up: numbers(vertices)? })
     }
 }
 
@@ -92,22 +108,24 @@ pub(super) fn steepest_of(mesh: &TriMesh, order: VertexOrder<'_>, v: u32, neighb
 /// For every entry of a forest, each leading to another one or to itself, where its path ends: for every vertex, the extremum of
 /// steepest paths.
 #[inline(never)]
-pub(super) fn ends(steepest: &[u32]) -> Vec<u32> {
+pub(super) fn ends(steepest: &[u32], watch: &Watch<'_>) -> Result<Vec<u32>, FieldError> {
     const UNKNOWN: u32 = u32::MAX;
-    let mut ends = vec![UNKNOWN; steepest.len()];
+    let mut ends = filled(UNKNOWN, steepest.len())?;
     let mut path = Vec::new();
-    for start in 0..steepest.len() as u32 {
-        let mut at = start;
-        while ends[at as usize] == UNKNOWN && steepest[at as usize] != at {
-            path.push(at);
-            at = steepest[at as usize];
+    for range in ranges(steepest.len(), ENDS, watch) {
+        for start in range? {
+            let mut at = start as u32;
+            while ends[at as usize] == UNKNOWN && steepest[at as usize] != at {
+                push(&mut path, at)?;
+                at = steepest[at as usize];
+            }
+            let end = if ends[at as usize] == UNKNOWN { at } else { ends[at as usize] };
+            ends[at as usize] = end;
+            for &v in &path {
+                ends[v as usize] = end;
+            }
+            path.clear();
         }
-        let end = if ends[at as usize] == UNKNOWN { at } else { ends[at as usize] };
-        ends[at as usize] = end;
-        for &v in &path {
-            ends[v as usize] = end;
-        }
-        path.clear();
     }
-    ends
+    Ok(ends)
 }

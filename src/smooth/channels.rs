@@ -57,7 +57,7 @@ impl<'a> Channels<'a> {
         }
         if n.checked_mul(channels) != Some(values.len()) {
             let expected = n.saturating_mul(channels);
-            return Err(FieldError::LengthMismatch { expected, actual: values.len() }.into());
+            return Err(FieldError::length_mismatch(expected, values.len(), mesh.triangle_count()).into());
         }
         let range = |c| Ok(value_range(mesh.connectivity(), &column(values, c, channels))?);
         let ranges = (0..channels).map(range).collect::<Result<_>>()?;

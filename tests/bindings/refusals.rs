@@ -75,12 +75,13 @@ fn wrong_options_are_refused_by_name() {
 #[wasm_bindgen_test]
 fn wrong_data_is_refused_with_its_ids() {
     let positions = array(&[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
-    let (code, _, detail) = thrown(RawTriMesh::new(&positions, &Uint32Array::from(&[0, 1, 9][..]), &NONE));
+    let (code, _, detail) = thrown(RawTriMesh::new(&positions, Some(Uint32Array::from(&[0, 1, 9][..])), &NONE));
     assert_eq!(code, "IndexOutOfBounds");
     assert_eq!((number(&detail, "triangle"), number(&detail, "index"), number(&detail, "vertices")), (0.0, 9.0, 3.0));
-    let empty = RawTriMesh::new(&Float64Array::new_with_length(0), &Uint32Array::new_with_length(0), &NONE);
+    let empty = RawTriMesh::new(&Float64Array::new_with_length(0), Some(Uint32Array::new_with_length(0)), &NONE);
     assert_eq!(thrown(empty).0, "EmptyMesh");
-    let (code, _, detail) = thrown(RawTriMesh::new(&array(&[f64::NAN; 9]), &Uint32Array::from(&[0, 1, 2][..]), &NONE));
+    let (code, _, detail) =
+        thrown(RawTriMesh::new(&array(&[f64::NAN; 9]), Some(Uint32Array::from(&[0, 1, 2][..])), &NONE));
     assert_eq!((code.as_str(), number(&detail, "vertex")), ("NonFinitePosition", 0.0));
     let mesh = raw(&torus());
     let mut f = noise(108);

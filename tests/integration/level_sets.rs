@@ -13,6 +13,66 @@ use crate::support::{
     book_of_three, edge_map, every_kind, jittered, mesh, noise, random_complex, random_surface, tied,
 };
 
+/// Where a line of a level goes through: a vertex at the level, or an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Vertex(u32),
+    Edge([u32; 2]),
+}
+
+/// Whether a line is closed, and its pieces, ascending.
+type Line = (bool, Vec<[Place; 2]>);
+
+fn place(f: &[f64], level: f64, [a, b]: [u32; 2]) -> Place {
+    let upper = if f[a as usize] >= level { a } else { b };
+    if f[upper as usize] == level { Place::Vertex(upper) } else { Place::Edge([a.min(b), a.max(b)]) }
+}
+
+fn line(closed: bool, mut pieces: Vec<[Place; 2]>) -> Line {
+    pieces.iter_mut().for_each(|piece| piece.sort());
+    pieces.sort();
+    (closed, pieces)
+}
+
+/// The lines of a level as they must be: a piece in every triangle that it cuts, those in triangles next to each other in one line,
+/// without pieces that begin and end in the same vertex.
+fn chains(mesh: &TriMesh, f: &[f64], level: f64) -> Vec<Line> {
+    let triangles = mesh.connectivity().triangles();
+    let sides = edge_map(triangles);
+    let mut names: Vec<usize> = (0..triangles.len()).collect();
+    let is_cut = |[a, b]: [u32; 2]| (f[a as usize] >= level) != (f[b as usize] >= level);
+    for (&edge, at) in &sides {
+        if is_cut(edge) && at.len() == 2 {
+            let (from, to) = (names[at[0] as usize], names[at[1] as usize]);
+            names.iter_mut().filter(|name| **name == from).for_each(|name| *name = to);
+        }
+    }
+    let mut lines: BTreeMap<usize, (bool, Vec<[Place; 2]>)> = BTreeMap::new();
+    for (t, &[a, b, c]) in triangles.iter().enumerate() {
+        let cut: Vec<[u32; 2]> = [[a, b], [b, c], [c, a]].into_iter().filter(|&edge| is_cut(edge)).collect();
+        if let &[p, q] = &cut[..] {
+            let line = lines.entry(names[t]).or_insert((true, Vec::new()));
+            line.0 &= cut.iter().all(|&[a, b]| sides[&[a.min(b), a.max(b)]].len() == 2);
+            let piece = [place(f, level, p), place(f, level, q)];
+            line.1.extend((piece[0] != piece[1]).then_some(piece));
+        }
+    }
+    lines.into_values().filter(|(_, pieces)| !pieces.is_empty()).map(|(closed, pieces)| line(closed, pieces)).collect()
+}
+
+/// The lines of a level as they are.
+fn found_lines(sets: &LevelSets, f: &[f64], level: f64) -> Vec<Line> {
+    let of_level = (0..sets.levels.len()).filter(|&k| sets.levels[k].to_bits() == level.to_bits());
+    let found = of_level.map(|k| {
+        let range = sets.offsets[k] as usize..sets.offsets[k + 1] as usize;
+        let places: Vec<Place> = sets.edges[range].iter().map(|&edge| place(f, level, edge)).collect();
+        let mut pieces: Vec<[Place; 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        pieces.extend(sets.closed[k].then(|| [places[places.len() - 1], places[0]]));
+        line(sets.closed[k], pieces)
+    });
+    found.collect()
+}
+
 /// Checks everything that must hold for any field and any levels.
 fn check(mesh: &TriMesh, f: &[f64], levels: &[f64]) -> Result<LevelSets, TestCaseError> {
     let sets = level_sets(mesh, f, levels).unwrap();
@@ -34,14 +94,17 @@ fn check(mesh: &TriMesh, f: &[f64], levels: &[f64]) -> Result<LevelSets, TestCas
             prop_assert!((sets.points[3 * place + i] - expected).abs() <= 1e-14 * size);
         }
     }
-    // The triangles that lines pass must be those that their level cuts, each exactly once.
+    // The triangles that lines pass must be those that their level cuts, each exactly once. Where a level goes through vertices,
+    // points have become one, and the lines are compared with those that `chains` makes.
+    let is_at_vertex = |level: f64| f.contains(&level);
     let mut passed: BTreeMap<u64, BTreeMap<u32, usize>> = BTreeMap::new();
     let mut line_levels = Vec::new();
     for k in 0..sets.levels.len() {
         let (start, end) = (sets.offsets[k] as usize, sets.offsets[k + 1] as usize);
         let level = sets.levels[k];
         line_levels.push((level, sets.closed[k]));
-        prop_assert!(end - start >= if sets.closed[k] { 3 } else { 2 }, "line {} has {} points", k, end - start);
+        let fewest = if sets.closed[k] && !is_at_vertex(level) { 3 } else { 2 };
+        prop_assert!(end - start >= fewest, "line {} has {} points", k, end - start);
         for place in start..end {
             let [a, b] = sets.edges[place];
             let t = sets.parameters[place];
@@ -50,6 +113,13 @@ fn check(mesh: &TriMesh, f: &[f64], levels: &[f64]) -> Result<LevelSets, TestCas
             prop_assert!((f[a as usize] >= level) != (f[b as usize] >= level));
         }
         let steps = if sets.closed[k] { end - start } else { end - start - 1 };
+        for step in 0..steps {
+            let [p, q] = [start + step, start + (step + 1) % (end - start)].map(|p| &sets.points[3 * p..3 * p + 3]);
+            prop_assert!(p != q, "a segment of length 0 on line {}", k);
+        }
+        if is_at_vertex(level) {
+            continue;
+        }
         for step in 0..steps {
             let (p, q) = (sets.edges[start + step], sets.edges[start + (step + 1) % (end - start)]);
             prop_assert!(p != q);
@@ -72,6 +142,14 @@ fn check(mesh: &TriMesh, f: &[f64], levels: &[f64]) -> Result<LevelSets, TestCas
     }
     for (&bits, &times) in &asked {
         let level = f64::from_bits(bits);
+        let (mut found, expected) = (found_lines(&sets, f, level), chains(mesh, f, level));
+        found.sort();
+        let mut repeated: Vec<Line> = (0..times).flat_map(|_| expected.iter().cloned()).collect();
+        repeated.sort();
+        prop_assert_eq!(found, repeated, "lines of {}", level);
+        if is_at_vertex(level) {
+            continue;
+        }
         let expected: BTreeMap<u32, usize> = triangles
             .iter()
             .enumerate()
@@ -268,4 +346,97 @@ fn many_levels_on_a_rough_surface() {
     let levels = evenly_spaced_levels(&torus, &f, 50).unwrap();
     let sets = check(&torus, &f, &levels).unwrap();
     assert!(sets.closed.iter().all(|&closed| closed), "a closed surface has closed level sets");
+}
+
+#[test]
+fn levels_through_vertices_and_plateaus() {
+    // Integer heights and integer levels: most lines go through vertices.
+    for (name, mesh) in every_kind() {
+        for seed in 0..20 {
+            let most = 1 + seed % 5;
+            let f: Vec<f64> = noise(mesh.vertex_count(), seed)
+                .iter()
+                .map(|x| ((x + 1.0) * 0.5 * (most + 1) as f64).floor())
+                .collect();
+            let levels: Vec<f64> = (0..=most + 1).map(|k| k as f64).collect();
+            check(&mesh, &f, &levels).unwrap_or_else(|e| panic!("{name}, seed {seed}: {e}"));
+        }
+    }
+}
+
+/// The sum of the lengths of the level's pieces in all triangles.
+fn length_by_triangles(mesh: &TriMesh, f: &[f64], level: f64) -> f64 {
+    let cut = |a: u32, b: u32| {
+        let (x, y) = (f[a as usize], f[b as usize]);
+        let (t, p, q) = ((level - x) / (y - x), mesh.position(a), mesh.position(b));
+        ((x >= level) != (y >= level)).then(|| [0, 1, 2].map(|i| (1.0 - t) * p[i] + t * q[i]))
+    };
+    let piece = |&[a, b, c]: &[u32; 3]| {
+        let ends: Vec<[f64; 3]> = [cut(a, b), cut(b, c), cut(c, a)].into_iter().flatten().collect();
+        match ends[..] {
+            [p, q] => (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]),
+            _ => 0.0,
+        }
+    };
+    mesh.connectivity().triangles().iter().map(piece).sum()
+}
+
+#[test]
+fn lengths_add_up_however_near_levels_come_to_vertices() {
+    let torus = jittered(&shapes::torus(40, 24, 0.2).unwrap(), 1e-3, 5);
+    let n = torus.vertex_count();
+    for seed in 0..4 {
+        let f: Vec<f64> = noise(n, seed).iter().map(|x| (3.0 * x).round()).collect();
+        for near in [0.0, 1e-17, 1e-16, 3e-16, 1e-15, 1e-12, 1e-6] {
+            let levels: Vec<f64> = (-3..=3).flat_map(|k| [f64::from(k) + near, f64::from(k) - near]).collect();
+            let sets = level_sets(&torus, &f, &levels).unwrap();
+            for &level in &levels {
+                let lines = (0..sets.levels.len()).filter(|&k| sets.levels[k] == level);
+                let found: f64 = lines.map(|k| length(&sets, k)).sum();
+                let times = levels.iter().filter(|&&other| other == level).count() as f64;
+                let expected = times * length_by_triangles(&torus, &f, level);
+                assert!((found - expected).abs() <= 1e-12 * (1.0 + expected), "{found} for {expected} at {level}");
+            }
+            for k in 0..sets.levels.len() {
+                let points = &sets.points[3 * sets.offsets[k] as usize..3 * sets.offsets[k + 1] as usize];
+                let points: Vec<&[f64]> = points.chunks_exact(3).collect();
+                let last = if sets.closed[k] { points.len() } else { points.len() - 1 };
+                assert!((0..last).all(|i| points[i] != points[(i + 1) % points.len()]), "{near}: line {k}");
+                assert!(points.len() >= 2);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_rule_for_levels_at_extrema() {
+    // A single vertex has no line, whether it is a maximum or a minimum.
+    let grid = shapes::grid(7, 7).unwrap();
+    let mut f = vec![0.0; 49];
+    f[24] = 1.0;
+    assert!(level_sets(&grid, &f, &[1.0]).unwrap().levels.is_empty());
+    f[24] = -1.0;
+    assert!(level_sets(&grid, &f, &[-1.0]).unwrap().levels.is_empty());
+    // The plateau around the pit is parted from it.
+    let sets = level_sets(&grid, &f, &[0.0]).unwrap();
+    assert_eq!((sets.closed.clone(), sets.edges.len()), (vec![true], 6));
+    // A plateau of the triangle 24, 25, 31 is outlined, by its three corners.
+    let triangle = grid.connectivity().triangles().iter().find(|t| t.contains(&24) && t.contains(&25)).unwrap();
+    let mut f = vec![0.0; 49];
+    triangle.iter().for_each(|&v| f[v as usize] = 2.0);
+    let sets = level_sets(&grid, &f, &[2.0]).unwrap();
+    assert_eq!((sets.closed.clone(), sets.edges.len()), (vec![true], 3));
+    let mut corners: Vec<[f64; 3]> = sets.points.as_chunks::<3>().0.to_vec();
+    let mut expected: Vec<[f64; 3]> = triangle.iter().map(|&v| grid.position(v)).collect();
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    expected.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert_eq!(corners, expected);
+    // A plateau of one edge: to and fro.
+    let mut f = vec![0.0; 49];
+    (f[24], f[25]) = (2.0, 2.0);
+    let sets = level_sets(&grid, &f, &[2.0]).unwrap();
+    assert_eq!((sets.closed.clone(), sets.edges.len()), (vec![true], 2));
+    // A plateau without lower ground beside it has no line, as there is no band below it.
+    let f: Vec<f64> = f.iter().map(|x| -x).collect();
+    assert!(level_sets(&grid, &f, &[-2.0]).unwrap().levels.is_empty());
 }

@@ -31,6 +31,7 @@ mod iterative;
 mod layering;
 mod level_sets;
 mod mesh;
+mod missing;
 mod morse;
 mod operators;
 mod ordering;
@@ -46,6 +47,7 @@ mod simplify;
 mod smooth;
 mod smooth_iterative;
 mod solve;
+mod stopping;
 mod support;
 #[cfg(feature = "render")]
 mod ticks;

@@ -1,13 +1,18 @@
 //! ε-simplification: exactly the wanted extrema, and no value farther off than the threshold.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use morse_smooth::field::{CriticalKind, DeltaOptions, Keep, Threshold, value_range};
-use morse_smooth::mesh::{TriMesh, shapes};
+use morse_smooth::Watch;
+use morse_smooth::field::{self, CriticalKind, DeltaOptions, Keep, ScalarField, Simplified, Threshold, value_range};
+use morse_smooth::mesh::TriMesh;
+use morse_smooth::mesh::shapes::{self, Random};
 use proptest::prelude::*;
 
 use crate::analyses::{critical_points, persistence, simplify};
-use crate::support::{bow_tie, every_kind, islands, noise, random_surface, shuffle, tied, two_tetrahedra_at_a_vertex};
+use crate::support::{
+    bow_tie, complex, every_kind, islands, noise, random_complex, random_surface, shuffle, tied,
+    two_tetrahedra_at_a_vertex,
+};
 
 fn extrema(mesh: &TriMesh, values: &[f64]) -> BTreeSet<(u32, CriticalKind)> {
     let points = critical_points(mesh, values, &DeltaOptions::default()).expect("a field").points;
@@ -35,15 +40,13 @@ fn is_surface(mesh: &TriMesh) -> bool {
 fn check_threshold(name: &str, mesh: &TriMesh, values: &[f64], threshold: f64) {
     let keep = Keep::Above(Threshold::Absolute(threshold));
     let wanted = above(mesh, values, threshold);
-    let simple = match simplify(mesh, values, keep) {
-        Ok(simple) => simple,
-        Err(error) => {
-            assert_eq!(error.code(), "UnavoidableExtremum", "{name}: {error}");
-            assert!(!is_surface(mesh), "{name}: {error}");
-            return;
-        }
-    };
-    assert_eq!(extrema(mesh, &simple), wanted, "{name}, threshold {threshold}");
+    let field = ScalarField::new(mesh, values).unwrap();
+    let Simplified { values: simple, unavoidable } = field::simplify(&field, keep, &Watch::none()).unwrap();
+    assert!(unavoidable.is_empty() || !is_surface(mesh), "{name}: {unavoidable:?}");
+    let mut found = extrema(mesh, &simple);
+    found.retain(|(v, _)| !unavoidable.contains(v));
+    assert_eq!(found, wanted, "{name}, threshold {threshold}");
+    assert!(unavoidable.iter().all(|v| !wanted.iter().any(|(kept, _)| kept == v)));
     let change = largest_change(values, &simple);
     // What is as persistent as the threshold, or nearly so, leaves no room for the tilt: a step for each vertex at most.
     let step = values.iter().fold(0.0_f64, |size, v| size.max(v.abs())) * f64::EPSILON;
@@ -196,11 +199,20 @@ fn sheets_that_hang_together_in_a_vertex_may_have_no_room() {
     // The second tetrahedron is as good as flat, but one of its vertices must be its highest or its lowest.
     let pinched = two_tetrahedra_at_a_vertex();
     let values = [0.0, -9.0, 9.0, 5.0, 0.1, 0.1, 0.2];
-    let error = simplify(&pinched, &values, Keep::Above(Threshold::Absolute(1.0))).unwrap_err();
-    assert_eq!(error.code(), "UnavoidableExtremum");
+    let simplified = |mesh: &TriMesh, values: &[f64], keep| {
+        let Simplified { values, unavoidable } =
+            field::simplify(&ScalarField::new(mesh, values).unwrap(), keep, &Watch::none()).unwrap();
+        let found: Vec<u32> = extrema(mesh, &values).into_iter().map(|(v, _)| v).collect();
+        (unavoidable, found)
+    };
+    let keep = Keep::Above(Threshold::Absolute(1.0));
+    assert_eq!(simplified(&pinched, &values, keep), (vec![6], vec![1, 2, 6]));
     let triangles = bow_tie();
-    let error = simplify(&triangles, &[0.0, -9.0, 9.0, 0.1, 0.1], Keep::Above(Threshold::Absolute(1.0)));
-    assert_eq!(error.unwrap_err().code(), "UnavoidableExtremum");
+    let (unavoidable, found) = simplified(&triangles, &[0.0, -9.0, 9.0, 0.1, 0.1], keep);
+    assert_eq!((unavoidable.len(), found.len()), (1, 3));
+    // The highest of the first triangle is to go, but the vertex that both share is the lowest of all.
+    let keep = Keep::Above(Threshold::Relative(0.7));
+    assert_eq!(simplified(&triangles, &[0.0, 2.0, 3.0, 5.0, 4.0], keep), (vec![2], vec![0, 2, 3]));
 }
 
 #[test]
@@ -230,4 +242,122 @@ fn bad_input_is_refused() {
     let error = simplify(&islands, &values, Keep::Extrema(&first)).unwrap_err();
     assert_eq!(error.code(), "Unconstrained");
     assert!(error.to_string().contains("component 1"), "{error}");
+}
+
+/// The least number of further extrema that any order of the vertices has in which the kept ones are extrema of their kind: all
+/// orders are tried.
+fn fewest_further_extrema(mesh: &TriMesh, kept: &BTreeMap<u32, CriticalKind>) -> usize {
+    let connectivity = mesh.connectivity();
+    let n = mesh.vertex_count();
+    let neighbours: Vec<BTreeSet<usize>> =
+        (0..n as u32).map(|v| connectivity.link(v).flatten().map(|w| w as usize).collect()).collect();
+    let mut ranks: Vec<usize> = (0..n).collect();
+    let mut least = usize::MAX;
+    let mut try_one = |ranks: &[usize]| {
+        let mut further = 0;
+        for v in 0..n {
+            if neighbours[v].is_empty() {
+                continue;
+            }
+            let below = neighbours[v].iter().filter(|&&w| ranks[w] < ranks[v]).count();
+            let kind = match below {
+                0 => Some(CriticalKind::Minimum),
+                all if all == neighbours[v].len() => Some(CriticalKind::Maximum),
+                _ => None,
+            };
+            match (kept.get(&(v as u32)), kind) {
+                (Some(&wanted), found) if found != Some(wanted) => return,
+                (None, Some(_)) => further += 1,
+                _ => {}
+            }
+        }
+        least = least.min(further);
+    };
+    // Heap's algorithm.
+    try_one(&ranks);
+    let mut counters = vec![0; n];
+    let mut i = 0;
+    while i < n {
+        if counters[i] < i {
+            ranks.swap(if i.is_multiple_of(2) { 0 } else { counters[i] }, i);
+            try_one(&ranks);
+            counters[i] += 1;
+            i = 0;
+        } else {
+            counters[i] = 0;
+            i += 1;
+        }
+    }
+    least
+}
+
+/// Small complexes in which much hangs together in single vertices.
+fn small_complexes() -> Vec<TriMesh> {
+    let mut meshes = vec![bow_tie()];
+    for seed in 0..120 {
+        meshes.push(random_complex(seed, 5 + seed as u32 % 3, 2 + seed as usize % 4));
+    }
+    // Triangles that share one vertex with what is there, or two.
+    for seed in 0..120_u64 {
+        let mut random = Random::new(seed);
+        let mut triangles = vec![[0, 1, 2]];
+        let mut count = 3;
+        while count < 7 {
+            let a = (random.uniform() * f64::from(count)) as u32;
+            let b = (random.uniform() * f64::from(count)) as u32;
+            if count < 6 && (a == b || random.uniform() < 0.6) {
+                triangles.push([a, count, count + 1]);
+                count += 2;
+            } else if a != b {
+                triangles.push([a, b, count]);
+                count += 1;
+            }
+        }
+        meshes.push(complex(count, &triangles));
+    }
+    meshes
+}
+
+#[test]
+fn what_is_unavoidable_is_found_by_trying_all_orders() {
+    let mut unavoidable_ones = 0;
+    for (k, mesh) in small_complexes().iter().enumerate() {
+        let n = mesh.vertex_count();
+        for seed in 0..3 {
+            let values = if seed == 2 { tied(n, k as u64, 2.0) } else { noise(n, k as u64 * 5 + seed) };
+            let all: Vec<(u32, CriticalKind)> = extrema(mesh, &values).into_iter().collect();
+            let diagram = persistence(mesh, &values).unwrap();
+            let essential: Vec<u32> =
+                diagram.essential_minima.iter().chain(&diagram.essential_maxima).copied().collect();
+            let mut random = Random::new(k as u64 + seed);
+            let mut keep = essential.clone();
+            keep.extend(all.iter().map(|&(v, _)| v).filter(|_| random.uniform() < 0.3));
+            // Others than the essential ones, where they are enough.
+            let other: Vec<u32> = all.iter().map(|&(v, _)| v).filter(|_| random.uniform() < 0.5).collect();
+            let field = ScalarField::new(mesh, &values).unwrap();
+            for keep in [Keep::Extrema(&keep), Keep::Extrema(&other), Keep::Above(Threshold::Relative(0.4))] {
+                let result = field::simplify(&field, keep, &Watch::none());
+                let Simplified { values: simple, unavoidable } = match result {
+                    Ok(simplified) => simplified,
+                    Err(error) => {
+                        assert_eq!(error.code(), "Unconstrained", "{k}: {error}");
+                        continue;
+                    }
+                };
+                let kept: BTreeMap<u32, CriticalKind> = match keep {
+                    Keep::Extrema(vertices) => all.iter().copied().filter(|(v, _)| vertices.contains(v)).collect(),
+                    _ => above(mesh, &values, 0.4 * field.range().length()).into_iter().collect(),
+                };
+                let mut expected: BTreeSet<u32> = kept.keys().copied().collect();
+                expected.extend(&unavoidable);
+                assert_eq!(expected.len(), kept.len() + unavoidable.len());
+                let found: BTreeMap<u32, CriticalKind> = extrema(mesh, &simple).into_iter().collect();
+                assert_eq!(found.keys().copied().collect::<BTreeSet<u32>>(), expected, "mesh {k}, seed {seed}");
+                assert!(kept.iter().all(|(v, kind)| found[v] == *kind));
+                assert_eq!(unavoidable.len(), fewest_further_extrema(mesh, &kept), "mesh {k}, seed {seed}, {keep:?}");
+                unavoidable_ones += unavoidable.len();
+            }
+        }
+    }
+    assert!(unavoidable_ones > 100, "{unavoidable_ones}");
 }

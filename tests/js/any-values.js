@@ -42,7 +42,15 @@ export function takeAnyValues(methods) {
     expectError(() => method([1, 2, 3, 4n]), 'InvalidArgument', { argument: 'values', index: 3 });
     // The last two are arrays by their prototype alone.
     const pretenders = [Object.create(Float64Array.prototype), new Proxy(new Float64Array(4), {})];
-    for (const bad of ['1234', undefined, null, {}, new BigInt64Array(4), new DataView(new ArrayBuffer(32)), ...pretenders]) {
+    for (const bad of [
+      '1234',
+      undefined,
+      null,
+      {},
+      new BigInt64Array(4),
+      new DataView(new ArrayBuffer(32)),
+      ...pretenders,
+    ]) {
       expectError(() => method(bad), 'InvalidArgument', { argument: 'values' });
     }
     expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');

@@ -130,7 +130,8 @@ describe('refused', () => {
   it.each([
     ['a string', 'x', triangles, 'InvalidArgument', { argument: 'positions' }],
     ['nothing', undefined, undefined, 'InvalidArgument', { argument: 'positions' }],
-    ['null triangles', positions, null, 'InvalidArgument', { argument: 'triangles' }],
+    ['a soup of four vertices', positions, null, 'TrianglesNotTriples', { length: 4 }],
+    ['no triangles', positions, undefined, 'InvalidArgument', { argument: 'triangles' }],
     ['bigints', new BigInt64Array(12), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['a DataView', new DataView(new ArrayBuffer(96)), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['an object like an array', { length: 12 }, triangles, 'InvalidArgument', { argument: 'positions' }],

@@ -1,8 +1,11 @@
 //! Values on a line, with the sums that k-means needs of any interval.
 
+use crate::error::FieldError;
+use crate::field::arrays::{collected, ranges, with_room};
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort_by_value;
 use crate::mesh::LinkKind;
+use crate::support::watch::Watch;
 
 /// The values of the vertices that belong to a triangle, by ascending (value, id), as integers: (f − min) 2^e, rounded down.
 ///
@@ -13,39 +16,42 @@ pub(super) struct Line {
     places: Vec<u64>,
     /// Σ x over the places before each, and over all.
     sums: Vec<u128>,
-    /// Σ x² likewise.
+    /// Σ x² over the same.
     squares: Vec<u128>,
 }
 
 impl Line {
-    pub(super) fn new(field: &ScalarField<'_>) -> Self {
+    pub(super) fn new(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<Self, FieldError> {
         let (values, range) = (field.values(), field.range());
         let kinds = field.mesh().connectivity().link_kinds();
-        let mut ids: Vec<u32> = (0..values.len() as u32).filter(|&v| kinds[v as usize] != LinkKind::Isolated).collect();
-        sort_by_value(&mut ids, values);
+        let connected = (0..values.len() as u32).filter(|&v| kinds[v as usize] != LinkKind::Isolated);
+        let mut ids = collected(field.mesh().connectivity().referenced_vertex_count(), connected)?;
+        sort_by_value(&mut ids, values, watch)?;
         let bits = (127 - (usize::BITS - ids.len().leading_zeros()) as i32) / 2;
         let scale = bits - 1 - exponent(range.length());
         // 2^e need not be a number where the range is small; its two halves are.
         let (first, second) = (power_of_two(scale / 2), power_of_two(scale - scale / 2));
         let mut this = Self {
-            places: Vec::with_capacity(ids.len()),
-            sums: Vec::with_capacity(ids.len() + 1),
-            squares: Vec::with_capacity(ids.len() + 1),
+            places: with_room(ids.len())?,
+            sums: with_room(ids.len() + 1)?,
+            squares: with_room(ids.len() + 1)?,
             ids: Vec::new(),
         };
         let (mut sum, mut square) = (0_u128, 0_u128);
         this.sums.push(sum);
         this.squares.push(square);
-        for &id in &ids {
-            let place = ((values[id as usize] - range.min) * first * second) as u64;
-            sum += u128::from(place);
-            square += u128::from(place) * u128::from(place);
-            this.places.push(place);
-            this.sums.push(sum);
-            this.squares.push(square);
+        for piece in ranges(ids.len(), 20, watch) {
+            for &id in &ids[piece?] {
+                let place = ((values[id as usize] - range.min) * first * second) as u64;
+                sum += u128::from(place);
+                square += u128::from(place) * u128::from(place);
+                this.places.push(place);
+                this.sums.push(sum);
+                this.squares.push(square);
+            }
         }
         this.ids = ids;
-        this
+        Ok(this)
     }
 
     pub(super) fn len(&self) -> usize {

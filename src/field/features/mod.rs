@@ -5,12 +5,13 @@ mod line;
 mod seeding;
 
 use crate::error::{FieldError, OptionError, Result};
+use crate::field::arrays::{collected, filled};
 use crate::field::critical::{DeltaOptions, critical_points};
 use crate::field::order::Threshold;
 use crate::field::persistence::persistence;
 use crate::field::scalar_field::ScalarField;
 use crate::mesh::Connectivity;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// Where feature points come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +28,7 @@ pub enum Features<'a> {
     KMeans {
         /// How many, at least 1. With as many as there are different values or more, each value is a cluster.
         clusters: usize,
-        /// Of the random numbers that the search begins with. The same seed gives the same clusters everywhere.
+        /// The seed of the random numbers that the search begins with. The same seed gives the same clusters everywhere.
         seed: u64,
     },
 }
@@ -68,15 +69,20 @@ pub enum Features<'a> {
 /// ```
 pub fn feature_points(fields: &[ScalarField<'_>], features: &Features<'_>, watch: &Watch<'_>) -> Result<Vec<u32>> {
     let expected = fields.first().map_or(0, |field| field.whole_mesh().vertex_count());
-    let mut chosen = vec![false; expected];
+    let mut chosen = filled(false, expected)?;
+    let steps = collected(fields.len(), fields.iter().map(|_| (Phase::Field, 1.0)))?;
+    let mut plan = watch.plan(&steps);
     for field in fields {
         let actual = field.whole_mesh().vertex_count();
         if actual != expected {
-            return Err(FieldError::LengthMismatch { expected, actual }.into());
+            return Err(FieldError::length_mismatch(expected, actual, 0).into());
         }
+        plan.begin(0)?;
         choose_in(field, features, &mut |vertex| chosen[vertex as usize] = true, watch)?;
     }
-    Ok(ascending(&chosen))
+    plan.finish()?;
+    let count = chosen.iter().filter(|&&chosen| chosen).count();
+    Ok(collected(count, (0..expected as u32).filter(|&v| chosen[v as usize]))?)
 }
 
 fn choose_in(
@@ -109,7 +115,9 @@ fn choose_in(
             return Err(OptionError::InvalidOption { option: "clusters".to_owned(), expected }.into());
         }
         Features::KMeans { clusters, seed } => {
-            k_means::representatives(field, clusters, seed).iter().for_each(|&v| choose(v));
+            let mut representatives = k_means::representatives(field, clusters, seed, watch)?;
+            field.to_whole(&mut representatives);
+            representatives.iter().for_each(|&v| choose(v));
         }
     }
     Ok(())

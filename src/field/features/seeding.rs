@@ -1,7 +1,10 @@
 //! The means that Lloyd's iterations begin with: k-means++ on a line.
 
 use super::line::Line;
+use crate::error::{FieldError, OutOfMemory};
+use crate::field::arrays::{filled, with_room};
 use crate::support::random::Random;
+use crate::support::watch::Watch;
 
 /// No cluster on that side.
 const NONE: u32 = u32::MAX;
@@ -20,22 +23,30 @@ struct Cluster {
 ///
 /// A new centre takes values from the two clusters beside it alone, so that the sums of the others stay: O(log n) for each.
 /// Sums are integers, hence the chosen value has a distance.
-pub(super) fn seeded(line: &Line, most: usize, random: &mut Random) -> Vec<usize> {
+pub(super) fn seeded(
+    line: &Line,
+    most: usize,
+    random: &mut Random,
+    watch: &Watch<'_>,
+) -> Result<Vec<usize>, FieldError> {
     let first = ((random.uniform() * line.len() as f64) as usize).min(line.len() - 1);
-    let mut clusters = vec![Cluster { centre: line.place(first), start: 0, end: line.len(), beside: [NONE; 2] }];
-    let mut spreads = SumTree::new(most);
+    let mut clusters = with_room(most)?;
+    clusters.push(Cluster { centre: line.place(first), start: 0, end: line.len(), beside: [NONE; 2] });
+    let mut spreads = SumTree::new(most)?;
     spreads.set(0, line.spread(0, line.len(), clusters[0].centre));
     while clusters.len() < most && spreads.total() > 0 {
+        watch.tick(2000)?;
         let target = (random.uniform() * spreads.total() as f64) as u128;
         let (near, rest) = spreads.find(target.min(spreads.total() - 1));
         let centre = line.place(place_of(line, &clusters[near], rest));
         insert(line, &mut clusters, &mut spreads, near as u32, centre);
     }
-    let mut starts: Vec<bool> = vec![false; line.len()];
+    let mut starts = filled(false, line.len())?;
     clusters.iter().for_each(|cluster| starts[cluster.start] = true);
-    let mut bounds: Vec<usize> = (0..line.len()).filter(|&i| starts[i]).collect();
+    let mut bounds = with_room(clusters.len() + 1)?;
+    bounds.extend((0..line.len()).filter(|&i| starts[i]));
     bounds.push(line.len());
-    bounds
+    Ok(bounds)
 }
 
 /// The first value of a cluster up to which the squared distances from its centre sum to more than `rest`.
@@ -87,8 +98,8 @@ struct SumTree {
 }
 
 impl SumTree {
-    fn new(leaves: usize) -> Self {
-        Self { nodes: vec![0; 2 * leaves.next_power_of_two()] }
+    fn new(leaves: usize) -> Result<Self, OutOfMemory> {
+        Ok(Self { nodes: filled(0, 2 * leaves.next_power_of_two())? })
     }
 
     fn total(&self) -> u128 {

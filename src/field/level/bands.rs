@@ -2,10 +2,12 @@
 
 use super::level_set::{check_levels, room};
 use super::saddle_levels::distinct;
-use crate::error::{FieldError, Result};
-use crate::field::scalar_field::ScalarField;
+use crate::error::{FieldError, OutOfMemory, Result};
+use crate::field::arrays::{collected, ranges};
+use crate::field::scalar_field::{OnMesh, Part as MeshPart, ScalarField};
 use crate::mesh::{LinkKind, TriMesh};
-use crate::support::watch::Watch;
+use crate::support::memory;
+use crate::support::watch::{Phase, Watch};
 
 /// A mesh cut along level sets: every triangle lies in one band. Band k holds what is at least `levels[k − 1]` and less than
 /// `levels[k]`.
@@ -27,6 +29,14 @@ pub struct Bands {
     pub parameters: Vec<f64>,
 }
 
+impl OnMesh for Bands {
+    fn tell_of_whole(&mut self, part: &MeshPart) -> Result<(), OutOfMemory> {
+        part.vertices(self.edges.as_flattened_mut());
+        part.triangles(&mut self.parents);
+        Ok(())
+    }
+}
+
 /// Cuts the mesh along the level sets {f = level} of the piecewise linear field.
 ///
 /// # Definition
@@ -35,8 +45,8 @@ pub struct Bands {
 /// point is the vertex. The parts of a triangle between neighbouring levels have up to five corners and are cut into triangles.
 ///
 /// # Properties
-/// As watertight as the mesh, with the same Euler characteristic; orientations are kept, and the areas add up to that of the mesh.
-/// Without levels it is the mesh itself. By parent, then by band. O(triangles · log levels + result).
+/// The result is as watertight as the mesh and has its Euler characteristic; orientations are kept, and the areas add up to that of
+/// the mesh. Without levels it is the mesh itself. Triangles come by parent, then by band. O(triangles · log levels + result).
 ///
 /// # Units
 /// Points in the units of the positions, levels in those of the values.
@@ -57,13 +67,20 @@ pub struct Bands {
 pub fn bands(field: &ScalarField<'_>, levels: &[f64], watch: &Watch<'_>) -> Result<Bands> {
     let (mesh, values) = (field.mesh(), field.values());
     check_levels(levels)?;
-    watch.tick(50 * values.len() as u64)?;
-    let mut cutter = Cutter::new(mesh, values, distinct(levels))?;
+    let mut plan = watch.plan(&[(Phase::Field, 3.0), (Phase::Field, 4.0)]);
+    plan.begin(NUMBER * (values.len() + mesh.triangle_count() + 2 * mesh.edge_count()) as u64)?;
+    let mut cutter = Cutter::new(mesh, values, distinct(levels)?, watch)?;
+    plan.begin(CUT * cutter.result.triangles.capacity() as u64)?;
     for t in 0..mesh.triangle_count() {
-        cutter.cut(t);
+        cutter.cut(t, watch)?;
     }
-    Ok(cutter.result)
+    plan.finish()?;
+    Ok(field.on_whole(cutter.result)?)
 }
+
+/// The work with one vertex, edge or triangle that is numbered, and with one triangle that is made.
+const NUMBER: u64 = 20;
+const CUT: u64 = 60;
 
 struct Cutter<'a> {
     mesh: &'a TriMesh,
@@ -79,18 +96,21 @@ struct Cutter<'a> {
 
 impl<'a> Cutter<'a> {
     /// Numbers the points, and counts before anything large is allocated.
-    fn new(mesh: &'a TriMesh, values: &'a [f64], levels: Vec<f64>) -> Result<Self, FieldError> {
+    fn new(mesh: &'a TriMesh, values: &'a [f64], levels: Vec<f64>, watch: &Watch<'_>) -> Result<Self, FieldError> {
         let connectivity = mesh.connectivity();
-        let ranks: Vec<u32> =
-            values.iter().map(|&value| levels.partition_point(|&level| level <= value) as u32).collect();
+        watch.tick(NUMBER * values.len() as u64)?;
+        let rank = |&value: &f64| levels.partition_point(|&level| level <= value) as u32;
+        let ranks = collected(values.len(), values.iter().map(rank))?;
         let result = Bands { levels, ..Bands::default() };
         let mut this = Self { mesh, values, ranks, vertices: Vec::new(), edges: Vec::new(), result };
         let mut points = connectivity.referenced_vertex_count() as u64;
         let mut triangles = 0;
+        watch.tick(NUMBER * mesh.triangle_count() as u64)?;
         for corners in connectivity.triangles() {
             let [lowest, _, highest] = this.ascending(corners).map(|v| u64::from(this.ranks[v as usize]));
             triangles += 1 + 2 * (highest - lowest);
         }
+        watch.tick(NUMBER * mesh.edge_count() as u64)?;
         for &[a, b] in connectivity.edges() {
             points += u64::from(this.points_on(a, b));
         }
@@ -98,6 +118,7 @@ impl<'a> Cutter<'a> {
         if points > u64::from(u32::MAX) {
             return Err(FieldError::OutOfMemory { bytes });
         }
+        memory::ensure(bytes + 4 * (values.len() + mesh.edge_count()) as u64)?;
         this.result.points = room(3 * points, bytes)?;
         this.result.edges = room(points, bytes)?;
         this.result.parameters = room(points, bytes)?;
@@ -112,13 +133,15 @@ impl<'a> Cutter<'a> {
                 this.point([v as u32; 2], 0.0);
             }
         }
-        for &[a, b] in connectivity.edges() {
-            this.edges.push(this.result.parameters.len() as u32);
-            let first = this.ranks[a as usize].min(this.ranks[b as usize]);
-            let (f, g) = (values[a as usize], values[b as usize]);
-            for rank in first..first + this.points_on(a, b) {
-                let level = this.result.levels[rank as usize];
-                this.point([a, b], ((level - f) / (g - f)).clamp(0.0, 1.0));
+        for range in ranges(mesh.edge_count(), NUMBER, watch) {
+            for &[a, b] in &connectivity.edges()[range?] {
+                this.edges.push(this.result.parameters.len() as u32);
+                let first = this.ranks[a as usize].min(this.ranks[b as usize]);
+                let (f, g) = (values[a as usize], values[b as usize]);
+                for rank in first..first + this.points_on(a, b) {
+                    let level = this.result.levels[rank as usize];
+                    this.point([a, b], ((level - f) / (g - f)).clamp(0.0, 1.0));
+                }
             }
         }
         Ok(this)
@@ -169,7 +192,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    fn cut(&mut self, t: usize) {
+    fn cut(&mut self, t: usize, watch: &Watch<'_>) -> Result<(), FieldError> {
         let connectivity = self.mesh.connectivity();
         let corners = connectivity.triangles()[t];
         let ascending = self.ascending(&corners);
@@ -178,7 +201,9 @@ impl<'a> Cutter<'a> {
         let turned = (place(low) + 1) % 3 != place(middle);
         // The edge opposite to a corner is the one that starts at the next.
         let edges = ascending.map(|v| connectivity.triangle_edges()[t][(place(v) + 1) % 3]);
-        for band in self.ranks[low as usize]..=self.ranks[high as usize] {
+        let (first, last) = (self.ranks[low as usize], self.ranks[high as usize]);
+        watch.tick(CUT * u64::from(1 + 2 * (last - first)))?;
+        for band in first..=last {
             let part = self.part(ascending, edges, band);
             for triangle in part.triangles(turned) {
                 self.result.triangles.push(triangle);
@@ -186,6 +211,7 @@ impl<'a> Cutter<'a> {
                 self.result.parents.push(t as u32);
             }
         }
+        Ok(())
     }
 
     /// The part of a triangle that lies in a band. Corners by ascending value, edges opposite to them: from the lowest corner

@@ -1,11 +1,12 @@
 //! Levels just below and just above saddles, where level sets change their shape.
 
 use super::level_set::MOST_LEVELS;
-use crate::error::{OptionError, Result};
+use crate::error::{OptionError, OutOfMemory, Result};
+use crate::field::arrays::collected;
 use crate::field::critical::{CriticalKind, exact};
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// Two levels for each value of a saddle, or of the given vertices: one just below and one just above.
 ///
@@ -20,7 +21,7 @@ use crate::support::watch::Watch;
 ///
 /// # Errors
 /// `IndexOutOfBounds` for a vertex that does not exist; `InvalidOption` where
-/// `offset` is negative or not finite, and for more than 10,000 levels.
+/// `offset` is negative or not finite, and for more than 10,000 levels; `MissingValue`, `Cancelled`, `OutOfMemory`.
 ///
 /// # Example
 /// ```
@@ -46,24 +47,28 @@ pub fn saddle_levels(
         let expected = "a finite number that is not negative".to_owned();
         return Err(OptionError::InvalidOption { option: "offset".to_owned(), expected }.into());
     }
+    let mut plan = watch.plan(&[(Phase::Field, 4.0), (Phase::Field, 1.0)]);
+    plan.begin(0)?;
     let at: Vec<f64> = match vertices {
         Some(vertices) => {
             let vertices = field.to_part(vertices)?;
-            vertices.iter().map(|&v| values[v as usize]).collect()
+            collected(vertices.len(), vertices.iter().map(|&v| values[v as usize]))?
         }
         None => {
-            watch.tick(30 * values.len() as u64)?;
-            let found = exact(field.mesh().connectivity(), field.order());
+            let found = exact(field.mesh().connectivity(), field.order(), watch)?;
             let saddles = found.points.iter().filter(|p| p.kind == CriticalKind::Saddle);
-            saddles.map(|p| values[p.vertex as usize]).collect()
+            collected(found.points.len(), saddles.map(|p| values[p.vertex as usize]))?
         }
     };
-    let at = distinct(&at);
+    plan.begin(600 * at.len() as u64)?;
+    watch.tick(200 * at.len() as u64)?;
+    let at = distinct(&at)?;
     // Those beyond the finite numbers have no lines.
     let width = (offset * range.length()).min(f64::MAX);
-    let levels: Vec<f64> =
-        at.iter().flat_map(|&c| [c - width, (c + width).max(c.next_up())]).filter(|level| level.is_finite()).collect();
-    let levels = distinct(&levels);
+    let both = at.iter().flat_map(|&c| [c - width, (c + width).max(c.next_up())]);
+    let levels = collected(2 * at.len(), both.filter(|level| level.is_finite()))?;
+    watch.tick(200 * levels.len() as u64)?;
+    let levels = distinct(&levels)?;
     if levels.len() > MOST_LEVELS {
         let expected = format!(
             "saddles with at most {} different values: name those that matter, or smooth the field first",
@@ -71,12 +76,13 @@ pub fn saddle_levels(
         );
         return Err(OptionError::InvalidOption { option: "saddles".to_owned(), expected }.into());
     }
+    plan.finish()?;
     Ok(levels)
 }
 
 /// Ascending, each once.
-pub(super) fn distinct(numbers: &[f64]) -> Vec<f64> {
-    let (mut sorted, _) = sort(numbers);
+pub(super) fn distinct(numbers: &[f64]) -> Result<Vec<f64>, OutOfMemory> {
+    let (mut sorted, _) = sort(numbers)?;
     sorted.dedup();
-    sorted
+    Ok(sorted)
 }

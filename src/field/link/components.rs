@@ -1,6 +1,7 @@
 //! How many components the lower and the upper link have, and until which δ.
 
 use super::graph::LinkGraph;
+use crate::error::OutOfMemory;
 use crate::field::sorting::sort;
 use crate::mesh::Connectivity;
 
@@ -40,15 +41,15 @@ fn push_positive(ends: &mut Vec<u64>, end: f64) {
 }
 
 impl LinkScratch {
-    pub(in crate::field) fn new(vertices: usize) -> Self {
-        Self {
-            graph: LinkGraph::new(vertices),
+    pub(in crate::field) fn new(vertices: usize) -> Result<Self, OutOfMemory> {
+        Ok(Self {
+            graph: LinkGraph::new(vertices)?,
             signs: Vec::new(),
             counted: Vec::new(),
             differences: Vec::new(),
             order: Vec::new(),
             heights: Vec::new(),
-        }
+        })
     }
 
     /// Looks at the link of `vertex` with the signs that `sign` gives to its vertices: −1 below, 0 within δ, 1 above.
@@ -57,19 +58,19 @@ impl LinkScratch {
         connectivity: &Connectivity,
         vertex: u32,
         sign: impl Fn(u32) -> i8,
-    ) -> SignedLink {
-        self.graph.gather(connectivity, vertex);
+    ) -> Result<SignedLink, OutOfMemory> {
+        self.graph.gather(connectivity, vertex)?;
         self.signs.clear();
         self.signs.extend(self.graph.nodes.iter().map(|&v| sign(v)));
         let lower_vertices = self.signs.iter().filter(|&&s| s < 0).count() as i64;
         let lower_edges =
             self.graph.edges.iter().filter(|e| e.iter().all(|&v| self.signs[v as usize] < 0)).count() as i64;
-        SignedLink {
+        Ok(SignedLink {
             lower_components: self.components(-1),
             upper_components: self.components(1),
             lower_characteristic: lower_vertices - lower_edges,
             on_boundary: self.graph.degrees.contains(&1),
-        }
+        })
     }
 
     /// Takes the link of `vertex` with the differences f_j − f_i: what [`LinkScratch::component_ends`] asks for.
@@ -78,10 +79,11 @@ impl LinkScratch {
         connectivity: &Connectivity,
         vertex: u32,
         difference: impl Fn(u32) -> f64,
-    ) {
-        self.graph.gather(connectivity, vertex);
+    ) -> Result<(), OutOfMemory> {
+        self.graph.gather(connectivity, vertex)?;
         self.differences.clear();
         self.differences.extend(self.graph.nodes.iter().map(|&v| difference(v)));
+        Ok(())
     }
 
     /// Exchanges below and above.
@@ -98,8 +100,8 @@ impl LinkScratch {
     /// A component is a class of the link vertices with difference ≤ δ, and counts as long as its lowest vertex is below −δ.
     /// As δ grows, classes merge. The elder rule lets the one with the lower vertex live on; so every class has one δ at which it
     /// ends, by its depth or by a merger.
-    pub(in crate::field) fn component_ends(&mut self, ends: &mut Vec<u64>) {
-        self.sort_edges();
+    pub(in crate::field) fn component_ends(&mut self, ends: &mut Vec<u64>) -> Result<(), OutOfMemory> {
+        self.sort_edges()?;
         self.graph.sets.reset(self.graph.nodes.len());
         ends.clear();
         for i in 0..self.order.len() {
@@ -122,10 +124,11 @@ impl LinkScratch {
         }
         ends.sort_unstable();
         ends.reverse();
+        Ok(())
     }
 
     /// Puts the edges in the order of their heights, the higher difference of their two ends.
-    fn sort_edges(&mut self) {
+    fn sort_edges(&mut self) -> Result<(), OutOfMemory> {
         self.heights.clear();
         for &[a, b] in &self.graph.edges {
             let (x, y) = (self.differences[a as usize], self.differences[b as usize]);
@@ -133,8 +136,8 @@ impl LinkScratch {
         }
         self.order.clear();
         if self.heights.len() > FEW {
-            self.order.extend(sort(&self.heights).1.iter().map(|&edge| edge as u32));
-            return;
+            self.order.extend(sort(&self.heights)?.1.iter().map(|&edge| edge as u32));
+            return Ok(());
         }
         for edge in 0..self.heights.len() {
             self.order.push(edge as u32);
@@ -144,6 +147,7 @@ impl LinkScratch {
                 place -= 1;
             }
         }
+        Ok(())
     }
 
     /// Components of the link vertices of sign `side` and 0 that hold one of sign `side`.

@@ -1,10 +1,18 @@
 //! The vertices and edges of one link.
 
+use crate::error::OutOfMemory;
+use crate::field::arrays::filled;
 use crate::mesh::Connectivity;
+use crate::support::memory;
 use crate::support::union_find::UnionFind;
 
 /// Where there is nothing to name.
 pub(super) const NONE: u32 = u32::MAX;
+
+/// Stars with more triangles take memory worth speaking of, so much for each triangle: for all that is known of a link, and for
+/// vectors that grow.
+const LARGE: usize = 256;
+const BYTES_EACH: u64 = 160;
 
 /// The link of a vertex as a graph; room that is used again for every vertex.
 #[derive(Debug)]
@@ -23,20 +31,23 @@ pub(super) struct LinkGraph {
 }
 
 impl LinkGraph {
-    pub(super) fn new(vertices: usize) -> Self {
-        Self {
-            places: vec![NONE; vertices],
+    pub(super) fn new(vertices: usize) -> Result<Self, OutOfMemory> {
+        Ok(Self {
+            places: filled(NONE, vertices)?,
             nodes: Vec::new(),
             edges: Vec::new(),
             degrees: Vec::new(),
             beside: Vec::new(),
             sets: UnionFind::default(),
-        }
+        })
     }
 
     /// Takes up the link of `vertex`.
     #[inline(never)]
-    pub(super) fn gather(&mut self, connectivity: &Connectivity, vertex: u32) {
+    ///
+    /// # Errors
+    /// `OutOfMemory`.
+    pub(super) fn gather(&mut self, connectivity: &Connectivity, vertex: u32) -> Result<(), OutOfMemory> {
         for &node in &self.nodes {
             self.places[node as usize] = NONE;
         }
@@ -44,13 +55,18 @@ impl LinkGraph {
         self.degrees.clear();
         self.edges.clear();
         self.beside.clear();
-        for &t in connectivity.star(vertex) {
+        let star = connectivity.star(vertex);
+        if star.len() > LARGE {
+            memory::ensure(BYTES_EACH * star.len() as u64)?;
+        }
+        for &t in star {
             let [j, k] = opposite(connectivity.triangles()[t as usize], vertex);
             let (j, k) = (self.place(j), self.place(k));
             self.edges.push([j, k]);
             self.put_beside(j, k);
             self.put_beside(k, j);
         }
+        Ok(())
     }
 
     fn place(&mut self, v: u32) -> u32 {

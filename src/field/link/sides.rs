@@ -1,6 +1,7 @@
 //! The components of the lower and upper link of a vertex, one by one and in their order around it.
 
 use super::graph::{LinkGraph, NONE};
+use crate::error::OutOfMemory;
 use crate::mesh::{Connectivity, LinkKind};
 
 /// One component of the lower or upper link.
@@ -22,8 +23,8 @@ pub(in crate::field) struct LinkSides {
 }
 
 impl LinkSides {
-    pub(in crate::field) fn new(vertices: usize) -> Self {
-        Self { graph: LinkGraph::new(vertices), members: Vec::new(), components: Vec::new() }
+    pub(in crate::field) fn new(vertices: usize) -> Result<Self, OutOfMemory> {
+        Ok(Self { graph: LinkGraph::new(vertices)?, members: Vec::new(), components: Vec::new() })
     }
 
     /// Looks at the link of `vertex`. In a cycle the components come in their order around it, lower and upper ones in turn,
@@ -34,8 +35,8 @@ impl LinkSides {
         connectivity: &Connectivity,
         vertex: u32,
         is_lower: impl Fn(u32) -> bool + Copy,
-    ) {
-        self.graph.gather(connectivity, vertex);
+    ) -> Result<(), OutOfMemory> {
+        self.graph.gather(connectivity, vertex)?;
         self.members.clear();
         self.components.clear();
         match connectivity.link_kinds()[vertex as usize] {
@@ -43,6 +44,7 @@ impl LinkSides {
             LinkKind::Cycle | LinkKind::Path => self.walk(is_lower),
             LinkKind::NonManifold => self.unite(is_lower),
         }
+        Ok(())
     }
 
     pub(in crate::field) fn components(&self) -> &[Component] {

@@ -2,12 +2,12 @@
 
 use super::NONE;
 use super::cancellations::Cancellations;
-use crate::error::Result;
+use crate::error::{OutOfMemory, Result};
+use crate::field::arrays::{filled, pieces, push, ranges};
 use crate::field::critical::CriticalKind;
-use crate::field::scalar_field::ScalarField;
-use crate::field::steepest::ends;
+use crate::field::scalar_field::{OnMesh, Part, ScalarField};
 use crate::mesh::LinkKind;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub struct MorseNode {
     pub cancelled_at: f64,
     /// The node that it is cancelled with; itself where it never is.
     pub partner: u32,
-    /// Of an extremum: the node of the extremum that its arcs go to once it is cancelled. Otherwise itself.
+    /// The node of the extremum that an extremum's arcs go to once it is cancelled; for other nodes itself.
     pub into: u32,
 }
 
@@ -32,6 +32,13 @@ pub struct MorseHierarchy {
     /// Nodes of a saddle and of an extremum that a steepest path leads to: on a closed surface two minima and two maxima for
     /// each simple saddle, which may coincide.
     pub arcs: Vec<[u32; 2]>,
+}
+
+impl OnMesh for MorseHierarchy {
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory> {
+        self.nodes.iter_mut().for_each(|node| part.vertex(&mut node.vertex));
+        Ok(())
+    }
 }
 
 impl MorseHierarchy {
@@ -46,8 +53,19 @@ impl MorseHierarchy {
     #[must_use]
     pub fn successors(&self, threshold: f64) -> Vec<u32> {
         let next = |node: u32| if self.is_alive(node, threshold) { node } else { self.nodes[node as usize].into };
-        let next: Vec<u32> = (0..self.nodes.len() as u32).map(next).collect();
-        ends(&next)
+        let mut successors: Vec<u32> = (0..self.nodes.len() as u32).map(next).collect();
+        for node in 0..successors.len() {
+            let mut last = node as u32;
+            while successors[last as usize] != last {
+                last = successors[last as usize];
+            }
+            // What leads to the last one is led to it at once from now on.
+            let mut at = node as u32;
+            while at != last {
+                at = core::mem::replace(&mut successors[at as usize], last);
+            }
+        }
+        successors
     }
 
     /// Nodes of the arcs that are there at a threshold.
@@ -71,13 +89,15 @@ impl MorseHierarchy {
 /// [`MorseHierarchy::successors`], [`MorseHierarchy::arcs_at`].
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`, `OutOfMemory`.
 pub fn morse_hierarchy(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<MorseHierarchy> {
-    let (mesh, values, order) = (field.mesh(), field.values(), field.order());
-    watch.tick(200 * values.len() as u64)?;
-    let all = Cancellations::new(mesh, order, f64::INFINITY);
+    let (mesh, n) = (field.mesh(), field.values().len());
+    let mut plan = watch.plan(&[(Phase::Field, 6.0), (Phase::Field, 1.0)]);
+    plan.begin(0)?;
+    let all = Cancellations::new(mesh, field.order(), f64::INFINITY, watch)?;
+    plan.begin(10 * n as u64 + 50 * all.simple_saddles.len() as u64)?;
     let mut nodes = Vec::new();
-    let mut node_of = [(); 2].map(|()| vec![NONE; values.len()]);
+    let mut node_of = [filled(NONE, n)?, filled(NONE, n)?];
     let kinds = mesh.connectivity().link_kinds();
     let node = |vertex: u32, kind, place: usize| MorseNode {
         vertex,
@@ -87,35 +107,45 @@ pub fn morse_hierarchy(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<Mor
         into: place as u32,
     };
     for (side, kind) in [CriticalKind::Minimum, CriticalKind::Maximum].into_iter().enumerate() {
-        for v in 0..values.len() as u32 {
-            if all.ends[side][v as usize] == v && kinds[v as usize] != LinkKind::Isolated {
-                node_of[side][v as usize] = nodes.len() as u32;
-                nodes.push(node(v, kind, nodes.len()));
+        for range in ranges(n, 5, watch) {
+            for v in range? {
+                if all.ends[side][v] == v as u32 && kinds[v] != LinkKind::Isolated {
+                    node_of[side][v] = nodes.len() as u32;
+                    let place = nodes.len();
+                    push(&mut nodes, node(v as u32, kind, place))?;
+                }
             }
         }
     }
     let saddles = nodes.len();
-    nodes.extend(
-        all.simple_saddles.vertices.iter().enumerate().map(|(i, &v)| node(v, CriticalKind::Saddle, saddles + i)),
-    );
-    for cancellation in &all.list {
-        let of_side = &node_of[usize::from(cancellation.upwards)];
-        let extremum = of_side[cancellation.extremum as usize];
-        let saddle = saddles as u32 + cancellation.simple;
-        let gone = &mut nodes[extremum as usize];
-        (gone.cancelled_at, gone.partner) = (cancellation.persistence, saddle);
-        gone.into = of_side[cancellation.into as usize];
-        let gone = &mut nodes[saddle as usize];
-        (gone.cancelled_at, gone.partner) = (cancellation.persistence, extremum);
+    for (i, &v) in all.simple_saddles.vertices.iter().enumerate() {
+        push(&mut nodes, node(v, CriticalKind::Saddle, saddles + i))?;
+    }
+    for piece in pieces(&all.list, 20, watch) {
+        for cancellation in piece? {
+            let of_side = &node_of[usize::from(cancellation.upwards)];
+            let extremum = of_side[cancellation.extremum as usize];
+            let saddle = saddles as u32 + cancellation.simple;
+            let gone = &mut nodes[extremum as usize];
+            (gone.cancelled_at, gone.partner) = (cancellation.persistence, saddle);
+            gone.into = of_side[cancellation.into as usize];
+            let gone = &mut nodes[saddle as usize];
+            (gone.cancelled_at, gone.partner) = (cancellation.persistence, extremum);
+        }
     }
     let mut arcs = Vec::new();
-    for simple in 0..all.simple_saddles.len() {
-        for (side, paths) in [all.simple_saddles.down[simple], all.simple_saddles.up[simple]].into_iter().enumerate() {
-            for first in paths.into_iter().filter(|&first| first != NONE) {
-                let extremum = all.ends[side][first as usize];
-                arcs.push([(saddles + simple) as u32, node_of[side][extremum as usize]]);
+    for range in ranges(all.simple_saddles.len(), 20, watch) {
+        for simple in range? {
+            for (side, paths) in
+                [all.simple_saddles.down[simple], all.simple_saddles.up[simple]].into_iter().enumerate()
+            {
+                for first in paths.into_iter().filter(|&first| first != NONE) {
+                    let extremum = all.ends[side][first as usize];
+                    push(&mut arcs, [(saddles + simple) as u32, node_of[side][extremum as usize]])?;
+                }
             }
         }
     }
-    Ok(MorseHierarchy { nodes, arcs })
+    plan.finish()?;
+    Ok(field.on_whole(MorseHierarchy { nodes, arcs })?)
 }

@@ -1,6 +1,9 @@
 //! Where steepest paths lead in one direction, before and after cancellations.
 
+use crate::error::FieldError;
+use crate::field::arrays::{filled, push, ranges, with_room};
 use crate::field::steepest::ends;
+use crate::support::watch::Watch;
 
 /// A forest: every vertex leads on to another one, and an extremum to itself. Behind the vertices come the simple saddles,
 /// over which the paths of cancelled extrema go on; such an entry is for the vertex of its saddle.
@@ -29,23 +32,32 @@ impl<'a> Paths<'a> {
     /// back and over the saddle. One such path after the other would be turned round again and again: what comes of it in the
     /// end is a tree of basins with the crossings as its edges, and every basin leads to the one next to it on the way to the
     /// extremum that is left.
-    pub(super) fn new(steepest: &[u32], ends: &[u32], saddles: &'a [u32], crossings: &[Crossing]) -> Self {
+    pub(super) fn new(
+        steepest: &[u32],
+        ends: &[u32],
+        saddles: &'a [u32],
+        crossings: &[Crossing],
+        watch: &Watch<'_>,
+    ) -> Result<Self, FieldError> {
         let vertices = steepest.len();
-        let mut next = Vec::with_capacity(vertices + saddles.len());
+        watch.tick(2 * (vertices + saddles.len()) as u64)?;
+        let mut next = with_room(vertices + saddles.len())?;
         next.extend_from_slice(steepest);
         next.extend((vertices as u32..).take(saddles.len()));
         let mut this = Self { next, vertices, saddles, crossed: Vec::new() };
         if !crossings.is_empty() {
-            this.crossed = vec![false; vertices];
-            this.lead_over(ends, crossings);
+            this.crossed = filled(false, vertices)?;
+            this.lead_over(ends, crossings, watch)?;
+            watch.tick(20 * crossings.len() as u64)?;
             this.cut_short(crossings);
         }
-        this
+        Ok(this)
     }
 
-    fn lead_over(&mut self, ends: &[u32], crossings: &[Crossing]) {
+    fn lead_over(&mut self, ends: &[u32], crossings: &[Crossing], watch: &Watch<'_>) -> Result<(), FieldError> {
+        watch.tick(5 * self.vertices as u64 + 20 * crossings.len() as u64)?;
         // The crossings of each basin, in compressed rows.
-        let mut offsets = vec![0_u32; self.vertices + 1];
+        let mut offsets = filled(0_u32, self.vertices + 1)?;
         for end in crossings.iter().flat_map(|crossing| crossing.sides).map(|side| ends[side as usize]) {
             offsets[end as usize] += 1;
         }
@@ -54,7 +66,7 @@ impl<'a> Paths<'a> {
             total += *offset;
             *offset = total;
         }
-        let mut around = vec![0_u32; total as usize];
+        let mut around = filled(0_u32, total as usize)?;
         for (i, crossing) in crossings.iter().enumerate() {
             for side in crossing.sides {
                 let place = &mut offsets[ends[side as usize] as usize];
@@ -63,7 +75,7 @@ impl<'a> Paths<'a> {
             }
         }
         let of_basin = |basin: u32| &around[offsets[basin as usize] as usize..offsets[basin as usize + 1] as usize];
-        let mut known = vec![false; self.vertices];
+        let mut known = filled(false, self.vertices)?;
         for crossing in crossings {
             known[crossing.extremum as usize] = true;
         }
@@ -71,10 +83,10 @@ impl<'a> Paths<'a> {
         let mut waiting = Vec::new();
         for end in crossings.iter().flat_map(|crossing| crossing.sides).map(|side| ends[side as usize]) {
             if !core::mem::replace(&mut known[end as usize], true) {
-                waiting.push(end);
+                push(&mut waiting, end)?;
             }
         }
-        let mut done = vec![false; crossings.len()];
+        let mut done = filled(false, crossings.len())?;
         while let Some(basin) = waiting.pop() {
             for &i in of_basin(basin) {
                 if core::mem::replace(&mut done[i as usize], true) {
@@ -82,14 +94,16 @@ impl<'a> Paths<'a> {
                 }
                 let Crossing { simple, sides: [a, b], .. } = crossings[i as usize];
                 let (to, from) = if ends[a as usize] == basin { (a, b) } else { (b, a) };
-                self.turn_round(simple, from, to);
-                waiting.push(ends[from as usize]);
+                watch.tick(5 * self.turn_round(simple, from, to))?;
+                push(&mut waiting, ends[from as usize])?;
             }
         }
+        Ok(())
     }
 
-    /// What led from `from` on to its extremum leads back, over the simple saddle and on to `to`.
-    fn turn_round(&mut self, simple: u32, from: u32, to: u32) {
+    /// What led from `from` on to its extremum leads back, over the simple saddle and on to `to`. Returns how long that was.
+    fn turn_round(&mut self, simple: u32, from: u32, to: u32) -> u64 {
+        let mut length = 1;
         let saddle = self.vertices as u32 + simple;
         let vertex = self.saddles[simple as usize];
         let (mut before, mut at) = (saddle, from);
@@ -101,12 +115,14 @@ impl<'a> Paths<'a> {
                 break;
             }
             (before, at) = (at, next);
+            length += 1;
         }
         self.next[saddle as usize] = to;
         // The vertex of the saddle itself need not go to `from` and back.
         if self.next[vertex as usize] == from {
             self.next[vertex as usize] = saddle;
         }
+        length
     }
 
     /// Where a path over a saddle would come back to its vertex at once, it stays there.
@@ -156,29 +172,31 @@ impl<'a> Paths<'a> {
     }
 
     /// For every entry the extremum at which its path ends.
-    pub(super) fn ends(&self) -> Vec<u32> {
-        ends(&self.next)
+    pub(super) fn ends(&self, watch: &Watch<'_>) -> Result<Vec<u32>, FieldError> {
+        ends(&self.next, watch)
     }
 
     /// For every entry how many there are from it to its extremum, both included.
-    pub(super) fn lengths(&self) -> Vec<u32> {
-        let mut lengths = vec![0_u32; self.next.len()];
+    pub(super) fn lengths(&self, watch: &Watch<'_>) -> Result<Vec<u32>, FieldError> {
+        let mut lengths = filled(0_u32, self.next.len())?;
         let mut path = Vec::new();
-        for start in 0..self.next.len() as u32 {
-            let mut at = start;
-            while lengths[at as usize] == 0 {
-                path.push(at);
-                match self.next(at) {
-                    Some(next) => at = next,
-                    None => break,
+        for range in ranges(self.next.len(), 10, watch) {
+            for start in range? {
+                let mut at = start as u32;
+                while lengths[at as usize] == 0 {
+                    push(&mut path, at)?;
+                    match self.next(at) {
+                        Some(next) => at = next,
+                        None => break,
+                    }
+                }
+                let mut length = lengths[at as usize];
+                while let Some(at) = path.pop() {
+                    length += 1;
+                    lengths[at as usize] = length;
                 }
             }
-            let mut length = lengths[at as usize];
-            while let Some(at) = path.pop() {
-                length += 1;
-                lengths[at as usize] = length;
-            }
         }
-        lengths
+        Ok(lengths)
     }
 }

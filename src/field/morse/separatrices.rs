@@ -3,11 +3,14 @@
 use super::NONE;
 use super::cancellations::Cancellations;
 use super::paths::Paths;
-use crate::error::{FieldError, Result};
+use crate::error::{FieldError, OutOfMemory, Result};
+use crate::field::arrays::{filled, push};
 use crate::field::critical::CriticalKind;
 use crate::field::order::Threshold;
-use crate::field::scalar_field::ScalarField;
-use crate::support::watch::Watch;
+use crate::field::scalar_field::{OnMesh, Part, ScalarField};
+use crate::support::memory;
+use crate::support::named::named;
+use crate::support::watch::{Phase, Watch};
 
 /// How far the lines of a Morse complex are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,6 +22,8 @@ pub enum PathStyle {
     /// first edge of a line can be there already.
     Merged,
 }
+
+named! { PathStyle { Whole = "whole", Merged = "merged" } }
 
 /// Lines along edges from saddles to extrema: line k has the vertices `offsets[k]..offsets[k + 1]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -33,6 +38,15 @@ pub struct MorseComplex {
     pub extrema: Vec<u32>,
     /// Minimum or maximum.
     pub kinds: Vec<CriticalKind>,
+}
+
+impl OnMesh for MorseComplex {
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory> {
+        part.vertices(&mut self.vertices);
+        part.vertices(&mut self.saddles);
+        part.vertices(&mut self.extrema);
+        Ok(())
+    }
 }
 
 /// Traces the steepest paths from each saddle: one for each component of its lower and of its upper link.
@@ -70,16 +84,20 @@ pub fn morse_complex(
     watch: &Watch<'_>,
 ) -> Result<MorseComplex> {
     let threshold = persistence.absolute(field.range(), "persistence")?;
-    watch.tick(200 * field.values().len() as u64)?;
-    let cancelled = Cancellations::new(field.mesh(), field.order(), threshold);
-    let alive = cancelled.alive(threshold);
-    let all_paths = cancelled.paths(threshold);
+    let n = field.values().len() as u64;
+    let mut plan = watch.plan(&[(Phase::Field, 5.0), (Phase::Field, 2.0), (Phase::Field, 3.0)]);
+    plan.begin(0)?;
+    let cancelled = Cancellations::new(field.mesh(), field.order(), threshold, watch)?;
+    plan.begin(30 * n)?;
+    let alive = cancelled.alive(threshold)?;
+    let all_paths = cancelled.paths(threshold, watch)?;
     let mut complex = MorseComplex::default();
     let simple_saddles = &cancelled.simple_saddles;
     let mut starts = [Vec::new(), Vec::new()];
     let mut simple = 0;
     while simple < simple_saddles.len() {
         // Simple saddles of one vertex share paths, and paths that come back over it may become the same.
+        watch.tick(100)?;
         let vertex = simple_saddles.vertices[simple];
         let mut begins = [Vec::new(), Vec::new()];
         while simple < simple_saddles.len() && simple_saddles.vertices[simple] == vertex {
@@ -93,25 +111,34 @@ pub fn morse_complex(
         for (starts, begins) in starts.iter_mut().zip(&mut begins) {
             begins.sort_unstable();
             begins.dedup();
-            starts.extend(begins.iter().map(|&begin| (vertex, begin)));
+            for &begin in begins.iter() {
+                push(starts, (vertex, begin))?;
+            }
         }
     }
-    complex.reserve(&starts, &all_paths, style)?;
+    complex.reserve(&starts, &all_paths, style, watch)?;
+    plan.begin(TRACE * complex.vertices.capacity() as u64)?;
     complex.offsets.push(0);
     for (side, kind) in [CriticalKind::Minimum, CriticalKind::Maximum].into_iter().enumerate() {
         let paths = &all_paths[side];
         let merged = style == PathStyle::Merged;
-        let mut passed = vec![false; if merged { paths.len() } else { 0 }];
-        let ends = if merged { paths.ends() } else { Vec::new() };
+        let mut passed = filled(false, if merged { paths.len() } else { 0 })?;
+        let ends = if merged { paths.ends(watch)? } else { Vec::new() };
         for &(saddle, begin) in &starts[side] {
+            let before = complex.vertices.len();
             let last = complex.trace(paths, saddle, begin, &mut passed);
+            watch.tick(TRACE * (complex.vertices.len() - before) as u64)?;
             complex.saddles.push(saddle);
             complex.extrema.push(if merged { ends[begin as usize] } else { last });
             complex.kinds.push(kind);
         }
     }
-    Ok(complex)
+    plan.finish()?;
+    Ok(field.on_whole(complex)?)
 }
+
+/// The work with one vertex of a line.
+const TRACE: u64 = 6;
 
 impl MorseComplex {
     /// Lines can share long ways: their points are counted before there is memory for them.
@@ -120,26 +147,31 @@ impl MorseComplex {
         starts: &[Vec<(u32, u32)>; 2],
         all_paths: &[Paths<'_>; 2],
         style: PathStyle,
+        watch: &Watch<'_>,
     ) -> Result<(), FieldError> {
         let lines = starts[0].len() + starts[1].len();
-        let points: u64 = match style {
-            PathStyle::Merged => (all_paths[0].len() + all_paths[1].len() + 2 * lines) as u64,
-            PathStyle::Whole => starts
-                .iter()
-                .zip(all_paths)
-                .map(|(starts, paths)| {
-                    let lengths = paths.lengths();
-                    starts.iter().map(|&(_, first)| 1 + u64::from(lengths[first as usize])).sum::<u64>()
-                })
-                .sum(),
-        };
-        let fits = points <= u64::from(u32::MAX)
-            && self.vertices.try_reserve_exact(points as usize).is_ok()
-            && self.offsets.try_reserve_exact(lines + 1).is_ok()
-            && self.saddles.try_reserve_exact(lines).is_ok()
-            && self.extrema.try_reserve_exact(lines).is_ok()
-            && self.kinds.try_reserve_exact(lines).is_ok();
-        if fits { Ok(()) } else { Err(FieldError::OutOfMemory { bytes: 4 * points + 13 * lines as u64 }) }
+        let mut points = 0;
+        match style {
+            PathStyle::Merged => points = (all_paths[0].len() + all_paths[1].len() + 2 * lines) as u64,
+            PathStyle::Whole => {
+                for (starts, paths) in starts.iter().zip(all_paths) {
+                    let lengths = paths.lengths(watch)?;
+                    points += starts.iter().map(|&(_, first)| 1 + u64::from(lengths[first as usize])).sum::<u64>();
+                }
+            }
+        }
+        // A vertex, and for every line where it starts, its saddle, its extremum and its kind.
+        let bytes = 4 * points + 13 * lines as u64 + 4;
+        if points > u64::from(u32::MAX) {
+            return Err(FieldError::OutOfMemory { bytes });
+        }
+        memory::ensure(bytes)?;
+        self.vertices.reserve_exact(points as usize);
+        self.offsets.reserve_exact(lines + 1);
+        self.saddles.reserve_exact(lines);
+        self.extrema.reserve_exact(lines);
+        self.kinds.reserve_exact(lines);
+        Ok(())
     }
 
     /// Adds a line and returns its last vertex.

@@ -1,9 +1,12 @@
 //! Saddles taken apart into simple ones.
 
 use super::NONE;
+use crate::error::FieldError;
+use crate::field::arrays::{collected, push, ranges, with_room};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::watch::Watch;
 
 /// Simple saddles, each with at most two steepest paths down and two up, given by their first vertices; [`NONE`] where there
 /// is none. Those of one vertex are neighbours, and vertices ascend.
@@ -21,26 +24,30 @@ pub(super) struct SimpleSaddles {
 }
 
 impl SimpleSaddles {
-    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>) -> Self {
-        let saddles = Saddles::steepest(mesh, order);
+    pub(super) fn new(mesh: &TriMesh, order: VertexOrder<'_>, watch: &Watch<'_>) -> Result<Self, FieldError> {
+        let saddles = Saddles::steepest(mesh, order, watch)?;
         let mut this = Self::default();
-        let mut starts = Vec::with_capacity(saddles.len() + 1);
-        for i in 0..saddles.len() as u32 {
-            starts.push(this.vertices.len() as u32);
-            let saddle = saddles.get(i);
-            let around = mesh.connectivity().link_kinds()[saddle.vertex as usize] == LinkKind::Cycle;
-            let first = |paths: &[u32], k: usize| paths.get(k).copied().unwrap_or(NONE);
-            for k in 1..saddle.lower.len().max(saddle.upper.len()) {
-                let hub = if around { k - 1 } else { 0 };
-                this.vertices.push(saddle.vertex);
-                this.down.push([first(saddle.lower, 0), first(saddle.lower, k)]);
-                this.up.push([first(saddle.upper, hub), first(saddle.upper, k)]);
+        let mut starts = with_room(saddles.len() + 1)?;
+        for range in ranges(saddles.len(), 20, watch) {
+            for i in range? {
+                let i = i as u32;
+                starts.push(this.vertices.len() as u32);
+                let saddle = saddles.get(i);
+                let around = mesh.connectivity().link_kinds()[saddle.vertex as usize] == LinkKind::Cycle;
+                let first = |paths: &[u32], k: usize| paths.get(k).copied().unwrap_or(NONE);
+                for k in 1..saddle.lower.len().max(saddle.upper.len()) {
+                    let hub = if around { k - 1 } else { 0 };
+                    push(&mut this.vertices, saddle.vertex)?;
+                    push(&mut this.down, [first(saddle.lower, 0), first(saddle.lower, k)])?;
+                    push(&mut this.up, [first(saddle.upper, hub), first(saddle.upper, k)])?;
+                }
             }
         }
         starts.push(this.vertices.len() as u32);
-        let ascending = saddles.ascending(order.values());
-        this.ascending = ascending.iter().flat_map(|&i| starts[i as usize]..starts[i as usize + 1]).collect();
-        this
+        let ascending = saddles.ascending(order.values(), watch)?;
+        let of_vertex = |&i: &u32| starts[i as usize]..starts[i as usize + 1];
+        this.ascending = collected(this.len(), ascending.iter().flat_map(of_vertex))?;
+        Ok(this)
     }
 
     pub(super) fn len(&self) -> usize {

@@ -4,16 +4,17 @@ mod loops;
 
 use loops::essential_saddles;
 
-use crate::error::Result;
+use crate::error::{OutOfMemory, Result};
+use crate::field::arrays::{collected, copied, filled, numbers, push, ranges};
 use crate::field::critical::CriticalKind;
 use crate::field::merging::Merging;
 use crate::field::saddles::Saddles;
-use crate::field::scalar_field::ScalarField;
+use crate::field::scalar_field::{OnMesh, Part, ScalarField};
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::Steepest;
 use crate::field::sweep::Sweep;
 use crate::mesh::LinkKind;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// An extremum and the saddle at which its component of the sublevel or superlevel set joins that of an older one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +45,19 @@ pub struct PersistenceDiagram {
     /// The vertices at which a loop appears in the sublevel sets that never bounds, once for each such loop, by ascending
     /// (value, id): as many as the first Betti number of the mesh (with coefficients modulo 2).
     pub essential_saddles: Vec<u32>,
+}
+
+impl OnMesh for PersistenceDiagram {
+    fn tell_of_whole(&mut self, part: &Part) -> Result<(), OutOfMemory> {
+        for pair in &mut self.pairs {
+            part.vertex(&mut pair.extremum);
+            part.vertex(&mut pair.saddle);
+        }
+        part.vertices(&mut self.essential_minima);
+        part.vertices(&mut self.essential_maxima);
+        part.vertices(&mut self.essential_saddles);
+        Ok(())
+    }
 }
 
 /// Numbers of extrema as steps over the persistence threshold: row k holds on `threshold[k]..threshold[k + 1]`.
@@ -95,12 +109,12 @@ impl PersistenceCurve {
 ///
 /// # Definition
 /// Vertices are added by ascending (value, id). A minimum begins a component; where components meet, that of the higher
-/// minimum ends, and this minimum is paired with the vertex at which they meet. Maxima likewise, from above \[Edelsbrunner02\].
+/// minimum ends, and this minimum is paired with the vertex at which they meet. Maxima are paired so from above \[Edelsbrunner02\].
 /// Persistence is the difference of the two values. The lowest and the highest vertex of every component of the mesh have no
 /// partner.
 ///
 /// # Properties
-/// On a closed surface every unit of a saddle's multiplicity is in one pair or essential, so that
+/// On a closed surface a saddle is in as many pairs as its multiplicity says, or essential, so that
 /// (minima + maxima) − (pairs + essential saddles) = χ. On any triangle complex χ = b₀ − b₁ + b₂, with b₀ the essential minima
 /// and b₁ the essential saddles. Linear time, but for sorting the saddles. Where sheets meet, all edges are sorted and their
 /// coboundaries reduced, which takes ten times as long, and on soups in which most edges have many triangles more than the square
@@ -110,7 +124,7 @@ impl PersistenceCurve {
 /// Those of the values.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`, `OutOfMemory`.
 ///
 /// # Example
 /// ```
@@ -123,40 +137,70 @@ impl PersistenceCurve {
 /// ```
 pub fn persistence(field: &ScalarField<'_>, watch: &Watch<'_>) -> Result<PersistenceDiagram> {
     let (mesh, values, order) = (field.mesh(), field.values(), field.order());
-    watch.tick(100 * values.len() as u64)?;
-    let saddles = Saddles::new(mesh, order);
-    let ascending = saddles.ascending(values);
-    let steepest = Steepest::by_value(mesh.connectivity(), order);
+    let connectivity = mesh.connectivity();
+    let mut steps = STEPS;
+    let is_manifold = !connectivity.link_kinds().contains(&LinkKind::NonManifold);
+    if !is_manifold {
+        steps[5].1 = 60.0;
+    }
+    let mut plan = watch.plan(&steps);
+    plan.begin(8 * connectivity.triangles().len() as u64 + 20 * values.len() as u64)?;
+    let saddles = Saddles::new(mesh, order, watch)?;
+    plan.begin(8 * connectivity.edges().len() as u64)?;
+    let steepest = Steepest::by_value(connectivity, order, watch)?;
+    plan.begin(90 * saddles.len() as u64)?;
+    let ascending = saddles.ascending(values, watch)?;
     let mut diagram = PersistenceDiagram::default();
     let mut pairs = Vec::new();
-    let mut mergers = vec![[0_u32; 2]; saddles.len()];
+    let mut mergers = filled([0_u32; 2], saddles.len())?;
     for sweep in [Sweep::upwards(order), Sweep::downwards(order)] {
+        plan.begin(100 * saddles.len() as u64 + 2 * values.len() as u64)?;
         let (kind, paths) = if sweep.is_downwards() {
             (CriticalKind::Maximum, &steepest.up)
         } else {
             (CriticalKind::Minimum, &steepest.down)
         };
-        let mut merging = Merging::new(sweep, paths.clone());
-        merging.visit(&saddles, &ascending, |index, merged| {
+        let mut merging = Merging::new(sweep, copied(paths)?);
+        merging.visit(&saddles, &ascending, &|_| false, watch, |index, merged| {
             mergers[index as usize][usize::from(sweep.is_downwards())] += 1;
             let saddle = saddles.get(index).vertex;
             let (a, b) = (values[merged.ended as usize], values[saddle as usize]);
             let (birth, death) = if a < b { (a, b) } else { (b, a) };
             let persistence = death - birth;
-            pairs.push(PersistencePair { extremum: merged.ended, saddle, kind, birth, death, persistence });
-        });
-        let kinds = mesh.connectivity().link_kinds();
-        let essential = (0..values.len() as u32)
-            .filter(|&v| merging.is_root(v) && kinds[v as usize] != LinkKind::Isolated)
-            .collect();
-        match kind {
-            CriticalKind::Minimum => diagram.essential_minima = essential,
-            _ => diagram.essential_maxima = essential,
+            push(&mut pairs, PersistencePair { extremum: merged.ended, saddle, kind, birth, death, persistence })?;
+            Ok(())
+        })?;
+        let kinds = connectivity.link_kinds();
+        let essential = match kind {
+            CriticalKind::Minimum => &mut diagram.essential_minima,
+            _ => &mut diagram.essential_maxima,
+        };
+        for range in ranges(values.len(), 2, watch) {
+            for v in range? {
+                if merging.is_root(v as u32) && kinds[v] != LinkKind::Isolated {
+                    push(essential, v as u32)?;
+                }
+            }
         }
     }
-    diagram.essential_saddles = essential_saddles(mesh, order, &saddles, &ascending, &mergers, &steepest.up);
-    let mut ranked: Vec<u32> = (0..pairs.len() as u32).collect();
-    sort_by_key(&mut ranked, &|i| !ascending_bits(pairs[i as usize].persistence));
-    diagram.pairs = ranked.iter().map(|&i| pairs[i as usize]).collect();
-    Ok(diagram)
+    let edges = connectivity.edges().len() as u64;
+    plan.begin(if is_manifold { 100 * saddles.len() as u64 } else { 200 * values.len() as u64 + 200 * edges })?;
+    diagram.essential_saddles = essential_saddles(mesh, order, &saddles, &ascending, &mergers, &steepest.up, watch)?;
+    plan.begin(90 * pairs.len() as u64)?;
+    let mut ranked = numbers(pairs.len())?;
+    sort_by_key(&mut ranked, &|i| !ascending_bits(pairs[i as usize].persistence), watch)?;
+    diagram.pairs = collected(pairs.len(), ranked.iter().map(|&i| pairs[i as usize]))?;
+    plan.finish()?;
+    Ok(field.on_whole(diagram)?)
 }
+
+/// The shares of: finding the saddles, steepest paths, sorting the saddles, the sweeps up and down, loops, sorting the pairs.
+const STEPS: [(Phase, f64); 7] = [
+    (Phase::Field, 3.0),
+    (Phase::Field, 2.0),
+    (Phase::Field, 1.5),
+    (Phase::Field, 2.0),
+    (Phase::Field, 2.0),
+    (Phase::Field, 1.0),
+    (Phase::Field, 1.0),
+];

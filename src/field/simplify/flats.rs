@@ -2,11 +2,14 @@
 
 use core::cmp::Ordering;
 
+use crate::error::FieldError;
+use crate::field::arrays::{filled, pieces, push, ranges, with_room};
 use crate::mesh::{Connectivity, LinkKind};
+use crate::support::watch::Watch;
 
 /// What becomes of a vertex, from bottom to top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum Target {
     /// To lie below all its neighbours.
     Minimum,
     /// To be regular or a saddle.
@@ -18,10 +21,10 @@ pub(super) enum Role {
 /// Bits of what a vertex has for neighbours.
 const HIGHER: u8 = 1;
 const LOWER: u8 = 2;
-const LEVEL: u8 = 4;
-/// On the same level, with a greater or a smaller id.
-const LEVEL_AFTER: u8 = 8;
-const LEVEL_BEFORE: u8 = 16;
+const EQUAL: u8 = 4;
+/// At the same height, with a greater or a smaller id.
+const EQUAL_AFTER: u8 = 8;
+const EQUAL_BEFORE: u8 = 16;
 
 /// Numbers of the two imaginary vertices that stand for all that is lower and all that is higher.
 const BOTTOM: u32 = 0;
@@ -29,39 +32,50 @@ const TOP: u32 = 1;
 const FIRST: u32 = 2;
 const NONE: u32 = u32::MAX;
 
-/// What every vertex has for neighbours, on a surface of levels.
+/// The work with one edge, and with one vertex.
+const EDGE: u64 = 8;
+const VERTEX: u64 = 15;
+
+/// What every vertex has for neighbours, on a surface of heights.
 #[derive(Debug)]
 pub(super) struct Surroundings {
     bits: Vec<u8>,
-    /// The neighbours on the same level, in compressed rows.
+    /// The neighbours at the same height, in compressed rows.
     offsets: Vec<u32>,
-    level: Vec<u32>,
+    beside: Vec<u32>,
 }
 
 impl Surroundings {
     /// Two passes over the edges.
     #[inline(never)]
-    pub(super) fn new(connectivity: &Connectivity, levels: &[f64], roles: &[Role]) -> Self {
-        let mut bits = vec![0_u8; levels.len()];
-        let mut offsets = vec![0_u32; levels.len() + 1];
-        for &[a, b] in connectivity.edges() {
-            let (a, b) = (a as usize, b as usize);
-            let (of_a, of_b) = if levels[a] < levels[b] {
-                (HIGHER, LOWER)
-            } else if levels[a] > levels[b] {
-                (LOWER, HIGHER)
-            } else {
-                offsets[a] += 1;
-                offsets[b] += 1;
-                match (roles[a] as u8).cmp(&(roles[b] as u8)) {
-                    Ordering::Less => (HIGHER, LOWER),
-                    Ordering::Greater => (LOWER, HIGHER),
-                    // The ends of an edge ascend.
-                    Ordering::Equal => (LEVEL | LEVEL_AFTER, LEVEL | LEVEL_BEFORE),
-                }
-            };
-            bits[a] |= of_a;
-            bits[b] |= of_b;
+    pub(super) fn new(
+        connectivity: &Connectivity,
+        heights: &[f64],
+        targets: &[Target],
+        watch: &Watch<'_>,
+    ) -> Result<Self, FieldError> {
+        let mut bits = filled(0_u8, heights.len())?;
+        let mut offsets = filled(0_u32, heights.len() + 1)?;
+        for piece in pieces(connectivity.edges(), EDGE, watch) {
+            for &[a, b] in piece? {
+                let (a, b) = (a as usize, b as usize);
+                let (of_a, of_b) = if heights[a] < heights[b] {
+                    (HIGHER, LOWER)
+                } else if heights[a] > heights[b] {
+                    (LOWER, HIGHER)
+                } else {
+                    offsets[a] += 1;
+                    offsets[b] += 1;
+                    match (targets[a] as u8).cmp(&(targets[b] as u8)) {
+                        Ordering::Less => (HIGHER, LOWER),
+                        Ordering::Greater => (LOWER, HIGHER),
+                        // The ends of an edge ascend.
+                        Ordering::Equal => (EQUAL | EQUAL_AFTER, EQUAL | EQUAL_BEFORE),
+                    }
+                };
+                bits[a] |= of_a;
+                bits[b] |= of_b;
+            }
         }
         let mut total = 0;
         for offset in &mut offsets {
@@ -69,23 +83,25 @@ impl Surroundings {
             *offset = total;
         }
         // Filled from the ends, so that these become starts.
-        let mut level = vec![0; total as usize];
-        for &[a, b] in connectivity.edges() {
-            if levels[a as usize] == levels[b as usize] {
-                for (this, that) in [(a, b), (b, a)] {
-                    let place = &mut offsets[this as usize];
-                    *place -= 1;
-                    level[*place as usize] = that;
+        let mut beside = filled(0, total as usize)?;
+        for piece in pieces(connectivity.edges(), EDGE, watch) {
+            for &[a, b] in piece? {
+                if heights[a as usize] == heights[b as usize] {
+                    for (this, that) in [(a, b), (b, a)] {
+                        let place = &mut offsets[this as usize];
+                        *place -= 1;
+                        beside[*place as usize] = that;
+                    }
                 }
             }
         }
-        Self { bits, offsets, level }
+        Ok(Self { bits, offsets, beside })
     }
 
-    /// The neighbours on the same level.
+    /// The neighbours at the same height.
     #[inline]
-    pub(super) fn level(&self, v: u32) -> &[u32] {
-        &self.level[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
+    pub(super) fn beside(&self, v: u32) -> &[u32] {
+        &self.beside[self.offsets[v as usize] as usize..self.offsets[v as usize + 1] as usize]
     }
 
     #[inline]
@@ -94,7 +110,7 @@ impl Surroundings {
     }
 }
 
-/// All vertices but isolated ones, so that on each level the minima come first and the maxima last, and every ordinary vertex
+/// All vertices but isolated ones, so that at each height the minima come first and the maxima last, and every ordinary vertex
 /// of a flat region has a neighbour before and one behind it, as far as the mesh has room for that.
 ///
 /// # Definition
@@ -104,13 +120,18 @@ impl Surroundings {
 /// around a vertex of a surface, the others hang together. A region where ids are such a numbering is left to them. Linear
 /// time.
 #[inline(never)]
-pub(super) fn ordered(connectivity: &Connectivity, around: &Surroundings, roles: &[Role]) -> Vec<u32> {
-    let mut order: Vec<u32> = Vec::with_capacity(roles.len());
+pub(super) fn ordered(
+    connectivity: &Connectivity,
+    around: &Surroundings,
+    targets: &[Target],
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, FieldError> {
+    let mut order: Vec<u32> = with_room(targets.len())?;
     let kinds = connectivity.link_kinds();
     let mut region = Region {
-        roles,
+        targets,
         around,
-        numbers: vec![NONE; roles.len()],
+        numbers: filled(NONE, targets.len())?,
         counted: FIRST,
         vertices: Vec::new(),
         parents: Vec::new(),
@@ -120,46 +141,52 @@ pub(super) fn ordered(connectivity: &Connectivity, around: &Surroundings, roles:
         previous: Vec::new(),
         is_reached_from_below: Vec::new(),
     };
-    let all = 0..roles.len() as u32;
-    order.extend(all.clone().filter(|&v| roles[v as usize] == Role::Minimum));
+    let all = 0..targets.len() as u32;
+    order.extend(all.clone().filter(|&v| targets[v as usize] == Target::Minimum));
     // From the top downwards; a region that nothing is above comes last and keeps a maximum.
-    for wanted in [HIGHER, HIGHER | LEVEL] {
-        for v in all.clone() {
-            let index = v as usize;
-            if roles[index] != Role::Ordinary || kinds[index] == LinkKind::Isolated || region.numbers[index] != NONE {
-                continue;
-            }
-            if !around.has(v, LEVEL) {
-                region.numbers[index] = TOP;
-                order.push(v);
-            } else if around.has(v, wanted) {
-                region.search(v);
-                if region.is_ordered_by_id() {
-                    region.vertices.sort_unstable();
-                    order.extend_from_slice(&region.vertices);
-                } else {
-                    region.number(&mut order);
+    for wanted in [HIGHER, HIGHER | EQUAL] {
+        for range in ranges(targets.len(), VERTEX, watch) {
+            for v in range? {
+                let v = v as u32;
+                let index = v as usize;
+                if targets[index] != Target::Ordinary
+                    || kinds[index] == LinkKind::Isolated
+                    || region.numbers[index] != NONE
+                {
+                    continue;
+                }
+                if !around.has(v, EQUAL) {
+                    region.numbers[index] = TOP;
+                    order.push(v);
+                } else if around.has(v, wanted) {
+                    region.search(v, watch)?;
+                    if region.is_ordered_by_id() {
+                        region.vertices.sort_unstable();
+                        order.extend_from_slice(&region.vertices);
+                    } else {
+                        region.number(&mut order)?;
+                    }
                 }
             }
         }
     }
-    order.extend(all.filter(|&v| roles[v as usize] == Role::Maximum));
-    order
+    order.extend(all.filter(|&v| targets[v as usize] == Target::Maximum));
+    Ok(order)
 }
 
 /// One flat region after the other, searched depth first from a vertex next to the top.
 struct Region<'a> {
-    roles: &'a [Role],
+    targets: &'a [Target],
     around: &'a Surroundings,
     /// In the order of discovery, going on from region to region.
     numbers: Vec<u32>,
     counted: u32,
-    /// Of the current region, in that order: the vertices, the numbers of those they were found from, and the least numbers
+    /// The vertices of the current region, in that order; the numbers of those they were found from, and the least numbers
     /// that they and their descendants are next to. Numbers of this region begin at `counted − vertices.len()`.
     vertices: Vec<u32>,
     parents: Vec<u32>,
     lows: Vec<u32>,
-    /// Vertex and the place among its level neighbours to go on from.
+    /// Vertex and the place among its neighbours at the same height to go on from.
     stack: Vec<(u32, u32)>,
     /// The numbering, a linked list.
     next: Vec<u32>,
@@ -168,38 +195,41 @@ struct Region<'a> {
 }
 
 impl Region<'_> {
-    /// Number of a vertex of this region counted from [`FIRST`], as if it were the only one.
+    /// The number of a vertex of this region counted from [`FIRST`], as if it were the only one.
     fn own(&self, number: u32) -> u32 {
         number - (self.counted - self.vertices.len() as u32) + FIRST
     }
 
-    fn discover(&mut self, v: u32, parent: u32) {
+    fn discover(&mut self, v: u32, parent: u32) -> Result<(), FieldError> {
         self.numbers[v as usize] = self.counted;
         self.counted += 1;
-        self.vertices.push(v);
-        self.parents.push(parent);
+        push(&mut self.vertices, v)?;
+        push(&mut self.parents, parent)?;
         let own = self.vertices.len() as u32 - 1 + FIRST;
-        self.lows.push(if self.around.has(v, LOWER) {
+        let low = if self.around.has(v, LOWER) {
             BOTTOM
         } else if self.around.has(v, HIGHER) {
             TOP
         } else {
             own
-        });
-        self.stack.push((v, 0));
+        };
+        push(&mut self.lows, low)?;
+        push(&mut self.stack, (v, 0))?;
+        Ok(())
     }
 
-    fn search(&mut self, root: u32) {
+    fn search(&mut self, root: u32, watch: &Watch<'_>) -> Result<(), FieldError> {
         self.vertices.clear();
         self.parents.clear();
         self.lows.clear();
-        self.discover(root, TOP);
+        self.discover(root, TOP)?;
         while let Some(top) = self.stack.last_mut() {
             let (v, step) = *top;
             top.1 += 1;
             let own = self.own(self.numbers[v as usize]);
             let low = (own - FIRST) as usize;
-            let Some(&w) = self.around.level(v).get(step as usize) else {
+            let Some(&w) = self.around.beside(v).get(step as usize) else {
+                watch.tick(EDGE * u64::from(step) + VERTEX)?;
                 self.stack.pop();
                 let parent = self.parents[low];
                 if parent >= FIRST {
@@ -208,29 +238,34 @@ impl Region<'_> {
                 }
                 continue;
             };
-            if self.roles[w as usize] != Role::Ordinary {
+            if self.targets[w as usize] != Target::Ordinary {
                 continue;
             }
             match self.numbers[w as usize] {
-                NONE => self.discover(w, own),
+                NONE => self.discover(w, own)?,
                 number => self.lows[low] = self.lows[low].min(self.own(number)),
             }
         }
+        Ok(())
     }
 
     fn is_ordered_by_id(&self) -> bool {
         let has = |v, bits| self.around.has(v, bits);
-        self.vertices.iter().all(|&v| has(v, LOWER | LEVEL_BEFORE) && has(v, HIGHER | LEVEL_AFTER))
+        self.vertices.iter().all(|&v| has(v, LOWER | EQUAL_BEFORE) && has(v, HIGHER | EQUAL_AFTER))
     }
 
     /// The st-numbering: every vertex is put just before or just behind the one it was found from, whichever keeps it between
     /// that one and the least one it can reach.
-    fn number(&mut self, order: &mut Vec<u32>) {
+    fn number(&mut self, order: &mut Vec<u32>) -> Result<(), FieldError> {
         let size = self.vertices.len() + FIRST as usize;
         let Self { next, previous, is_reached_from_below, .. } = self;
-        next.resize(size, NONE);
-        previous.resize(size, NONE);
+        if next.len() < size {
+            (*next, *previous) = (filled(NONE, size)?, filled(NONE, size)?);
+        }
         (next[BOTTOM as usize], previous[TOP as usize]) = (TOP, BOTTOM);
+        if is_reached_from_below.capacity() < size {
+            *is_reached_from_below = with_room(size)?;
+        }
         is_reached_from_below.clear();
         is_reached_from_below.resize(size, false);
         is_reached_from_below[BOTTOM as usize] = true;
@@ -249,5 +284,6 @@ impl Region<'_> {
             order.push(self.vertices[(at - FIRST) as usize]);
             at = next[at as usize];
         }
+        Ok(())
     }
 }

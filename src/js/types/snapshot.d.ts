@@ -33,7 +33,7 @@ export interface Camera {
  * found before: results of `TriMesh` are taken as they are, with all that is in them.
  */
 export interface DrawOptions {
-  /** Default `"viridis"`. */
+  /** The color map. Default `"viridis"`. */
   colormap?: Colormap;
   /** The values with the first and the last color, which values beyond them have, too. Default: least and greatest value. */
   range?: readonly [number, number];
@@ -55,16 +55,16 @@ export interface DrawOptions {
   missing?: 'error' | 'omit';
 }
 
-/** See {@link snapshot}. */
+/** What {@link snapshot} takes. */
 export interface SnapshotOptions extends DrawOptions {
-  /** Pixels, 1 to 8192. Default 1200. */
+  /** The width in pixels, 1 to 8192. Default 1200. */
   width?: number;
-  /** Pixels, 1 to 8192. Default 900. */
+  /** The height in pixels, 1 to 8192. Default 900. */
   height?: number;
   /** A bar that says which color is which value, where there is room. Default true. */
   colorBar?: boolean;
   /**
-   * Written above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others become
+   * The text above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others become
    * boxes. Default: nothing.
    */
   title?: string;
@@ -72,7 +72,7 @@ export interface SnapshotOptions extends DrawOptions {
 }
 
 /**
- * See {@link sheet}. `width` and `height` are those of each picture without its color bar (default 600 × 560), and the title is above
+ * What {@link sheet} takes. `width` and `height` are those of each picture without its color bar (default 600 × 560), and the title is above
  * them all; the whole sheet has at most 8192 pixels along a side. What was found on one field is not for two
  * (`InapplicableOption`).
  */
@@ -80,9 +80,9 @@ export interface SheetOptions extends SnapshotOptions {
   levels?: Numbers | { count: number };
   criticalPoints?: boolean;
   morseComplex?: boolean | { persistence: number };
-  /** Above each picture. Default `["before", "after", "difference"]`. */
+  /** What is written above each picture. Default `["before", "after", "difference"]`. */
   titles?: readonly [string, string, string];
-  /** Default `"coolWarm"`. */
+  /** The color map of the difference. Default `"coolWarm"`. */
   differenceColormap?: Colormap;
   /** The difference with the last color; its negative has the first. Default: the largest that there is. */
   largestDifference?: number;
@@ -168,7 +168,7 @@ export interface DrawList {
   lines: Lines[];
   /** Critical points, one entry for each kind that there is. */
   solids: Solids[];
-  /** The rule for the radius of solids, for whoever draws fewer of them. */
+  /** The size of solids, for whoever draws fewer of them. */
   size: SolidSize;
   light: Light;
 }

@@ -5,10 +5,11 @@ use wasm_bindgen::prelude::*;
 
 use super::options::{Constraining, from_rule};
 use super::reports;
-use crate::error::{Error, FieldError, OptionError};
+use crate::error::{Error, FieldError, OptionError, OutOfMemory};
 use crate::mesh::{self, TriMesh, WeldOptions};
 use crate::operators::{self, LaplacianWeights, MassOptions};
 use crate::smooth::{self, Unconstrained};
+use crate::support::memory;
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
@@ -47,6 +48,13 @@ pub(super) fn weld(record: &Record) -> Option<WeldOptions> {
     }
 }
 
+/// The triangles of a soup of so many vertices.
+fn soup(vertices: usize) -> Result<Vec<u32>, OutOfMemory> {
+    let mut triangles = memory::with_room(vertices)?;
+    triangles.extend(0..vertices as u32);
+    Ok(triangles)
+}
+
 /// Says where the option stands that welding refuses.
 pub(super) fn from_weld(error: Error) -> Error {
     match error {
@@ -71,16 +79,14 @@ impl RawTriMesh {
         let options = read("", options, weld)?;
         let positions = floats(positions)?;
         let triangles = triangles.as_ref().map(ids).transpose()?;
-        Ok(match (options, triangles) {
-            (None, Some(triangles)) => Self::wrap(TriMesh::new(positions, triangles)?, None),
-            (options, triangles) => {
-                let welded =
-                    mesh::weld(&positions, triangles.as_deref(), &options.unwrap_or_default()).map_err(from_weld)?;
-                drop((positions, triangles));
-                let map = welded.joins_any().then_some(welded.map);
-                Self::wrap(TriMesh::new(welded.positions, welded.triangles)?, map)
-            }
-        })
+        let Some(options) = options else {
+            let triangles = triangles.map_or_else(|| soup(positions.len() / 3), Ok)?;
+            return Ok(Self::wrap(TriMesh::new(positions, triangles)?, None));
+        };
+        let welded = mesh::weld(&positions, triangles.as_deref(), &options).map_err(from_weld)?;
+        drop((positions, triangles));
+        let map = welded.joins_any().then_some(welded.map);
+        Ok(Self::wrap(TriMesh::new(welded.positions, welded.triangles)?, map))
     }
 
     /// For every vertex as given the vertex that it became; null where they are the same.

@@ -56,7 +56,8 @@ export class Smoother {
   #smooth(method, values, options) {
     const given = toOptions(options);
     const numbers = toNumbers(values, 'values');
-    const all = isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    const all =
+      isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
     const settings = CONSTRAINED.includes(method) ? withConstraints(all, this.#vertexCount) : all;
     return watched(settings, (settings) => this.#handle.useAlone((raw) => raw.apply(method, numbers, settings)));
   }
