@@ -12,7 +12,7 @@ const row = curve.minima.findIndex((count, k) => count + curve.maxima[k] <= 2);
 const threshold = curve.threshold[row];
 console.log(`one of each from threshold ${threshold.toFixed(2)} on`);
 
-const simple = mesh.simplify(fields.noisy, { threshold, thresholdIs: 'absolute' });
+const { values: simple } = mesh.simplify(fields.noisy, { threshold, thresholdIs: 'absolute' });
 const left = mesh.criticalPoints(simple).counts;
 console.log(`${left.minima} minimum, ${left.maxima} maximum, ${left.saddles} saddles`);
 const change = simple.reduce((most, value, v) => Math.max(most, Math.abs(value - fields.noisy[v])), 0);

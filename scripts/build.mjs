@@ -2,21 +2,16 @@
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
-import { dirname, join, relative } from 'node:path';
+import { dirname, join, relative, sep } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { bundle } from './lib/bundle.mjs';
 import { withLock } from './lib/lock.mjs';
 import { Problem, main, step } from './lib/log.mjs';
-import { dist, inRoot, modules, pkg, root } from './lib/paths.mjs';
+import { isMadeFrom, modules } from './lib/modules.mjs';
+import { dist, inRoot, pkg, root } from './lib/paths.mjs';
 import { ask } from './lib/run.mjs';
 import { runWasmPack } from './lib/wasm-pack.mjs';
 import { setUp } from './setup.mjs';
-
-/** What each module does without: it need not be built anew for that. */
-const FOREIGN = {
-  core: /^(render|wasm.snapshot)\b/,
-  snapshot: /^wasm.(critical|files|levels|mesh|options|persistence|smoother)\b/,
-};
 
 /** Builds what is out of date. The set-up must have been done. */
 export function build() {
@@ -46,7 +41,7 @@ async function unlessCurrent(name, output, inputs, work) {
 /** Everything that a module is made from: cargo would notice a change, but wasm-opt would not notice that there is none. */
 function wasmInputs(name) {
   const sources = readdirSync(inRoot('src'), { recursive: true }).filter(
-    (file) => file.endsWith('.rs') && !FOREIGN[name].test(file),
+    (file) => file.endsWith('.rs') && isMadeFrom(name, file.replaceAll(sep, '/')),
   );
   const others = ['Cargo.toml', 'Cargo.lock', 'package-lock.json', join('scripts', 'build.mjs')];
   return [...others, ...sources.map((file) => join('src', file))];
@@ -57,7 +52,8 @@ function bundleInputs() {
     .filter((name) => /\.(js|mjs|ts)$/.test(name))
     .map((name) => join('src', 'js', name));
   const wasm = Object.values(modules).map(({ built }) => relative(root, built));
-  return ['package.json', join('scripts', 'lib', 'bundle.mjs'), ...wasm, ...sources];
+  const scripts = ['bundle.mjs', 'glue.mjs', 'modules.mjs'].map((name) => join('scripts', 'lib', name));
+  return ['package.json', ...scripts, ...wasm, ...sources];
 }
 
 function hashOf(files) {

@@ -2,7 +2,8 @@
 import { existsSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { Problem, main } from './lib/log.mjs';
-import { inRoot, modules } from './lib/paths.mjs';
+import { modules } from './lib/modules.mjs';
+import { inRoot } from './lib/paths.mjs';
 import { ask, must } from './lib/run.mjs';
 import { runChecks } from './lib/sections.mjs';
 import { build } from './build.mjs';

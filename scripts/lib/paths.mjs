@@ -13,17 +13,6 @@ export const pkg = inRoot('pkg');
 export const dist = inRoot('dist');
 export const artifacts = inRoot('artifacts');
 
-const wasmModule = (folder, name, feature, title) => {
-  const wasm = `${name}_bg.wasm`;
-  return { name, feature, title, wasm, built: join(pkg, folder, wasm) };
-};
-
-/** The package's wasm modules: wasm-pack's name for each, the crate's feature that makes it, its file in dist/ and in pkg/. */
-export const modules = {
-  core: wasmModule('core', 'morse_smooth', 'wasm', 'the WebAssembly module'),
-  snapshot: wasmModule('snapshot', 'morse_smooth_snapshot', 'wasm-snapshot', 'the WebAssembly module of the pictures'),
-};
-
 const isWindows = process.platform === 'win32';
 export const executable = (name) => (isWindows ? `${name}.exe` : name);
 

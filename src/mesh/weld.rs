@@ -68,7 +68,7 @@ impl Welded {
     /// `LengthMismatch` unless there is one value per old vertex; `OutOfMemory`.
     pub fn field(&self, values: &[f64]) -> Result<WeldedField, FieldError> {
         if values.len() != self.map.len() {
-            return Err(FieldError::LengthMismatch { expected: self.map.len(), actual: values.len() });
+            return Err(FieldError::length_mismatch(self.map.len(), values.len(), 0));
         }
         let kept = self.positions.len() / 3;
         memory::ensure(9 * kept as u64)?;

@@ -54,9 +54,9 @@ pub fn constrained_vertices(
     values: &[f64],
     channels: usize,
     constraints: &Constraints<'_>,
+    watch: &Watch<'_>,
 ) -> Result<Vec<u32>> {
-    Ok(ConstraintSet::found(mesh, &Channels::new(mesh, values, channels, None)?, None, constraints, &Watch::none())?
-        .vertices)
+    Ok(ConstraintSet::found(mesh, &Channels::new(mesh, values, channels, None)?, None, constraints, watch)?.vertices)
 }
 
 impl Constraints<'_> {

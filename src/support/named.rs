@@ -1,5 +1,17 @@
 //! Names of choices: each choice has one name, which options, reports, messages and the command line all use.
 
+/// What has names, for code that reads choices of any kind.
+pub(crate) trait Named: Copy + 'static {
+    /// All choices.
+    const CHOICES: &'static [Self];
+
+    /// The name of a choice.
+    fn label(self) -> &'static str;
+
+    /// The choice with this name.
+    fn labelled(name: &str) -> Option<Self>;
+}
+
 /// Gives an enum of plain variants its names: `ALL`, `name` and `from_name`. Where names are written in whatever case, as endings of
 /// files are, `any case` stands before them. The feature `serde` writes them as their names.
 ///
@@ -15,6 +27,7 @@ macro_rules! named {
         named! { @ $type, str::eq_ignore_ascii_case, { $($names)* } }
     };
     (@ $type:ident, $same:expr, { $($variant:ident = $name:literal),* $(,)? }) => {
+        #[allow(dead_code, reason = "not every choice is found by its name, or listed, everywhere")]
         impl $type {
             /// All of them, in the order in which they are listed to users.
             pub const ALL: &'static [Self] = &[$(Self::$variant),*];
@@ -39,6 +52,18 @@ macro_rules! named {
         impl serde::Serialize for $type {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> core::result::Result<S::Ok, S::Error> {
                 serializer.serialize_str(self.name())
+            }
+        }
+
+        impl crate::support::named::Named for $type {
+            const CHOICES: &'static [Self] = Self::ALL;
+
+            fn label(self) -> &'static str {
+                self.name()
+            }
+
+            fn labelled(name: &str) -> Option<Self> {
+                Self::from_name(name)
             }
         }
     };

@@ -1,43 +1,20 @@
-//! The bindings: JavaScript values in and out, no mathematics. The entries in `src/js` wrap what is exported here: `wasm` is the
-//! module of `morse-smooth`, `wasm-snapshot` that of `morse-smooth/snapshot`.
+//! The bindings: JavaScript values in and out, no mathematics. The files in `src/js/api` wrap what is exported here: `core` is the
+//! module of `morse-smooth` (feature `wasm`), `snapshot` that of `morse-smooth/snapshot` (feature `wasm-snapshot`).
 #![allow(unreachable_pub, reason = "wasm-bindgen exports what is `pub`, however private the module")]
 
-mod convert;
 #[cfg(feature = "wasm")]
-mod critical;
-mod error;
-#[cfg(feature = "wasm")]
-mod files;
-#[cfg(feature = "wasm")]
-mod levels;
-#[cfg(feature = "wasm")]
-mod mesh;
-#[cfg(feature = "wasm")]
-mod options;
-#[cfg(feature = "wasm")]
-mod persistence;
-#[cfg(feature = "wasm")]
-mod smoother;
+mod core;
+mod shared;
 #[cfg(feature = "wasm-snapshot")]
 mod snapshot;
 
-pub use error::Thrown;
 #[cfg(feature = "wasm")]
-pub use files::{read_field, read_mesh, write_mesh};
-#[cfg(feature = "wasm")]
-pub use mesh::RawTriMesh;
-#[cfg(feature = "wasm")]
-pub use smoother::{RawSmoother, smooth};
+pub use self::core::{RawSmoother, RawTriMesh, read_field, read_mesh, smooth, write_mesh};
+pub use shared::error::Thrown;
+pub use shared::reserve::set_aside;
 #[cfg(feature = "wasm-snapshot")]
 pub use snapshot::RawScene;
 use wasm_bindgen::prelude::*;
-
-/// Version of the package.
-#[must_use]
-#[wasm_bindgen]
-pub fn version() -> String {
-    env!("CARGO_PKG_VERSION").to_owned()
-}
 
 /// A panic is a defect of ours and ends in a trap without words: write them to the console first, for the bug report.
 #[wasm_bindgen(start)]

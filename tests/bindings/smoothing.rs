@@ -1,6 +1,6 @@
 //! Smoothing: the same numbers as in Rust, and progress.
 
-use js_sys::{Array, Object, Reflect};
+use js_sys::{Array, Object, Reflect, Uint32Array};
 use morse_smooth::field::{DeltaOptions, Features, LinkReading, Threshold};
 use morse_smooth::smooth::{
     BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Operator,
@@ -21,7 +21,8 @@ fn smoothing_is_that_of_rust() {
     let expected =
         native.tikhonov(&f, &TikhonovOptions { epsilon: 0.3, ..TikhonovOptions::default() }).expect("a solution");
     let mut smoother = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
-    let long: JsValue = smoother.tikhonov(&array(&f), &js("{ epsilon: 0.3 }")).ok().expect("a solution").into();
+    let long: JsValue =
+        smoother.apply("tikhonov", &array(&f), &js("{ epsilon: 0.3 }")).ok().expect("a solution").into();
     let short: JsValue = smooth(&raw(&mesh), &array(&f), &js("{ epsilon: 0.3 }")).ok().expect("a solution").into();
     for found in [&long, &short] {
         assert_eq!(floats(found, "values"), expected.values);
@@ -43,8 +44,11 @@ fn smoothing_is_that_of_rust() {
         assert_eq!(Array::from(&get(found, "reports")).length(), 1);
     }
     let twice: Vec<f64> = f.iter().flat_map(|&x| [x, -x]).collect();
-    let found: JsValue =
-        smoother.tikhonov(&array(&twice), &js("{ epsilon: 0.3, channels: 2 }")).ok().expect("a solution").into();
+    let found: JsValue = smoother
+        .apply("tikhonov", &array(&twice), &js("{ epsilon: 0.3, channels: 2 }"))
+        .ok()
+        .expect("a solution")
+        .into();
     assert_eq!(Array::from(&get(&found, "reports")).length(), 2);
     let first: Vec<f64> = floats(&found, "values").into_iter().step_by(2).collect();
     assert!(first.iter().zip(&expected.values).all(|(a, b)| (a - b).abs() < 1e-13));
@@ -63,7 +67,7 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
         let given = js(&format!("{{ operator: 'fem', precision: '{text}' }}"));
         let mut smoother = RawSmoother::new(&raw(&mesh), &given).ok().expect("cotangents");
         let wavelength = js("{ cutoffWavelength: 0.7 }");
-        let long: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
+        let long: JsValue = smoother.apply("tikhonov", &array(&f), &wavelength).ok().expect("a solution").into();
         let all: JsValue = Object::<JsValue>::assign(given.unchecked_ref(), wavelength.unchecked_ref()).into();
         let short: JsValue = smooth(&raw(&mesh), &array(&f), &all).ok().expect("a solution").into();
         for found in [&long, &short] {
@@ -83,18 +87,18 @@ fn finite_elements_and_single_precision_are_those_of_rust() {
             ("{ cutoffWavelength: 0 }", "InvalidOption", "cutoffWavelength"),
             ("{ cutoffWavelength: '1' }", "InvalidOption", "cutoffWavelength"),
         ] {
-            let (found, message, detail) = thrown(smoother.tikhonov(&array(&f), &js(text)));
+            let (found, message, detail) = thrown(smoother.apply("tikhonov", &array(&f), &js(text)));
             assert_eq!(
                 (found.as_str(), get(&detail, "option").as_string().as_deref()),
                 (code, Some(named)),
                 "{message}"
             );
         }
-        let again: JsValue = smoother.tikhonov(&array(&f), &wavelength).ok().expect("a solution").into();
+        let again: JsValue = smoother.apply("tikhonov", &array(&f), &wavelength).ok().expect("a solution").into();
         assert_eq!(floats(&again, "values"), expected.values);
     }
     let mut papers = RawSmoother::new(&raw(&mesh), &NONE).ok().expect("cotangents");
-    assert_eq!(thrown(papers.tikhonov(&array(&f), &js("{ cutoffWavelength: 1 }"))).0, "InapplicableOption");
+    assert_eq!(thrown(papers.apply("tikhonov", &array(&f), &js("{ cutoffWavelength: 1 }"))).0, "InapplicableOption");
 }
 
 #[wasm_bindgen_test]
@@ -117,9 +121,9 @@ fn constraints_are_those_of_rust() {
         ("{ from: 'kMeans', clusters: 7, seed: 3 }", Features::KMeans { clusters: 7, seed: 3 }, true),
     ] {
         let constraints = Constraints { features, stars, unconstrained: Unconstrained::Error };
-        let wanted = constrained_vertices(&mesh, &f, 1, &constraints).expect("vertices");
+        let wanted = constrained_vertices(&mesh, &f, 1, &constraints, &morse_smooth::Watch::none()).expect("vertices");
         let found = given.constrained_vertices(&array(&f), &js(text), &NONE).ok().expect("vertices");
-        assert_eq!(found.to_vec(), wanted, "{text}");
+        assert_eq!(found.unchecked_into::<Uint32Array>().to_vec(), wanted, "{text}");
 
         let options = InterpolateOptions {
             constraints,
@@ -129,7 +133,7 @@ fn constraints_are_those_of_rust() {
         };
         let wanted = native.interpolate(&f, &options).expect("a solution");
         let given_options = js(&format!("{{ constraints: {text}, energy: 'biharmonic' }}"));
-        let found: JsValue = smoother.interpolate(&array(&f), &given_options).ok().expect("a solution").into();
+        let found: JsValue = smoother.apply("interpolate", &array(&f), &given_options).ok().expect("a solution").into();
         check_constrained(&found, &wanted, text);
 
         let options = LeastSquaresOptions {
@@ -141,19 +145,23 @@ fn constraints_are_those_of_rust() {
         };
         let wanted = native.least_squares(&f, &options).expect("a solution");
         let given_options = js(&format!("{{ constraints: {text}, epsilon: 0.5 }}"));
-        let found: JsValue = smoother.least_squares(&array(&f), &given_options, None).ok().expect("a solution").into();
+        let found: JsValue =
+            smoother.apply("leastSquares", &array(&f), &given_options).ok().expect("a solution").into();
         check_constrained(&found, &wanted, text);
         Reflect::set(&given_options, &"bounds".into(), &JsValue::TRUE).expect("an object");
         let found: JsValue = smooth(&given, &array(&f), &given_options).ok().expect("a solution").into();
         check_constrained(&found, &wanted, text);
     }
-    let weights = array(&[1.0, 2.0]);
-    let options = js("{ constraints: new Uint32Array([5, 70]), epsilon: 0.5 }");
-    assert!(smoother.least_squares(&array(&f), &options, Some(weights)).is_ok());
-    let (code, message, detail) = thrown(smoother.least_squares(&array(&f), &options, Some(array(&[1.0, 0.0]))));
+    let options = |weights: &str| {
+        js(&format!(
+            "{{ constraints: new Uint32Array([5, 70]), epsilon: 0.5, weights: new Float64Array([{weights}]) }}"
+        ))
+    };
+    assert!(smoother.apply("leastSquares", &array(&f), &options("1, 2")).is_ok());
+    let (code, message, detail) = thrown(smoother.apply("leastSquares", &array(&f), &options("1, 0")));
     assert_eq!((code.as_str(), number(&detail, "vertex")), ("InvalidWeight", 70.0), "{message}");
     let nested = js("{ constraints: { from: 'criticalPoints', delta: -1 } }");
-    let (code, message, detail) = thrown(smoother.interpolate(&array(&f), &nested));
+    let (code, message, detail) = thrown(smoother.apply("interpolate", &array(&f), &nested));
     assert_eq!((code.as_str(), get(&detail, "option")), ("InvalidOption", "constraints.delta".into()), "{message}");
 }
 
@@ -185,11 +193,11 @@ fn filters_are_those_of_rust() {
     let taubin = LowPassOptions { iterations: 7, lambda: 0.4, mu: -0.45, channels: 1, ..LowPassOptions::default() };
     let wanted = native.low_pass(&f, &taubin).expect("steps");
     let given = js("{ iterations: 7, lambda: 0.4, mu: -0.45 }");
-    let found: JsValue = smoother.low_pass(&array(&f), &given).ok().expect("steps").into();
+    let found: JsValue = smoother.apply("lowPass", &array(&f), &given).ok().expect("steps").into();
     assert_eq!(floats(&found, "values"), wanted.values);
     let plain = LowPassOptions { iterations: 3, ..LowPassOptions::default() };
     let wanted = native.low_pass(&f, &plain).expect("steps");
-    let found: JsValue = smoother.low_pass(&array(&f), &js("{ iterations: 3 }")).ok().expect("steps").into();
+    let found: JsValue = smoother.apply("lowPass", &array(&f), &js("{ iterations: 3 }")).ok().expect("steps").into();
     assert_eq!(floats(&found, "values"), wanted.values);
     let options = BilateralOptions {
         iterations: 2,
@@ -201,13 +209,15 @@ fn filters_are_those_of_rust() {
     };
     let wanted = native.bilateral(&f, &options).expect("steps");
     let given = js("{ iterations: 2, radius: 0.6, sigmaDistance: 0.3, sigmaValue: 0.7 }");
-    let found: JsValue = smoother.bilateral(&array(&f), &given).ok().expect("steps").into();
+    let found: JsValue = smoother.apply("bilateral", &array(&f), &given).ok().expect("steps").into();
     // To the last bit: the exponential function is not the platform's.
     assert_eq!(floats(&found, "values"), wanted.values);
     assert_eq!(number(&get(&get(&found, "report"), "solver"), "iterations"), 2.0);
     for text in ["undefined", "{}", "{ iterations: -1 }", "{ iterations: 1, lambda: 2, radius: 0 }"] {
-        let codes =
-            [thrown(smoother.low_pass(&array(&f), &js(text))).0, thrown(smoother.bilateral(&array(&f), &js(text))).0];
+        let codes = [
+            thrown(smoother.apply("lowPass", &array(&f), &js(text))).0,
+            thrown(smoother.apply("bilateral", &array(&f), &js(text))).0,
+        ];
         assert!(codes.iter().all(|code| ["InvalidOption", "UnknownOption"].contains(&code.as_str())), "{text}");
     }
 }
@@ -216,7 +226,9 @@ fn filters_are_those_of_rust() {
 fn progress_is_told_and_cannot_harm() {
     let mesh = raw(&torus());
     let f = array(&noise(108));
-    let options = js("{ epsilon: 0.1, onProgress: (p) => { (globalThis.told ??= []).push(p); } }");
+    let options = js(
+        "{ epsilon: 0.1, onProgress: (phase, fraction) => { (globalThis.told ??= []).push({ phase, fraction }); } }",
+    );
     smooth(&mesh, &f, &options).ok().expect("a solution");
     let told = Array::from(&get(&js_sys::global(), "told"));
     let phases: Vec<String> = told.iter().map(|p| get(&p, "phase").as_string().expect("a phase")).collect();

@@ -58,7 +58,7 @@ pub(crate) fn torus() -> TriMesh {
 pub(crate) fn raw(mesh: &TriMesh) -> RawTriMesh {
     let positions = Float64Array::from(mesh.positions());
     let triangles = Uint32Array::from(mesh.connectivity().triangles().as_flattened());
-    RawTriMesh::new(&positions, &triangles, &NONE).ok().expect("a mesh")
+    RawTriMesh::new(&positions, Some(triangles.clone()), &NONE).ok().expect("a mesh")
 }
 
 pub(crate) fn noise(n: usize) -> Vec<f64> {

@@ -297,7 +297,13 @@ fn check_smoothing(
         let key = if options.delta == 0.0 { "all critical points" } else { "delta=0.02 skip" };
         let sizes = &field["constraints"][key];
         check.equal(&format!("{context} constraints"), &Some(report.constraint_count as u64), &sizes[1].as_u64());
-        let all = constrained_vertices(smoother.mesh(), f, 1, &Constraints { stars: false, ..constraints(options) });
+        let all = constrained_vertices(
+            smoother.mesh(),
+            f,
+            1,
+            &Constraints { stars: false, ..constraints(options) },
+            &morse_smooth::Watch::none(),
+        );
         let all = all.expect("a field").len() as u64;
         check.equal(&format!("{context} feature points"), &Some(all), &sizes[0].as_u64());
         if energy.is_some() {

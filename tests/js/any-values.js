@@ -16,6 +16,11 @@ export function takeAnyValues(methods) {
     const result = call(before);
     expect(call(single)).toEqual(result);
     expect(call([...single])).toEqual(result);
+    const whole = Float64Array.from(before, (value) => Math.round(100 * value));
+    for (const Integers of [Int8Array, Int16Array, Int32Array]) expect(call(Integers.from(whole))).toEqual(call(whole));
+    const positive = whole.map((value) => value + 101);
+    for (const Integers of [Uint8Array, Uint8ClampedArray, Uint16Array, Uint32Array])
+      expect(call(Integers.from(positive))).toEqual(call(positive));
     expect(before).toEqual(Float64Array.from(single));
     for (const array of Object.values(result)) {
       // As long as its buffer: no view of the module's memory, which would go stale.
@@ -37,7 +42,15 @@ export function takeAnyValues(methods) {
     expectError(() => method([1, 2, 3, 4n]), 'InvalidArgument', { argument: 'values', index: 3 });
     // The last two are arrays by their prototype alone.
     const pretenders = [Object.create(Float64Array.prototype), new Proxy(new Float64Array(4), {})];
-    for (const bad of ['1234', undefined, null, {}, new Int32Array(4), ...pretenders]) {
+    for (const bad of [
+      '1234',
+      undefined,
+      null,
+      {},
+      new BigInt64Array(4),
+      new DataView(new ArrayBuffer(32)),
+      ...pretenders,
+    ]) {
       expectError(() => method(bad), 'InvalidArgument', { argument: 'values' });
     }
     expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');

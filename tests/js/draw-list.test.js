@@ -23,7 +23,7 @@ const difference = (p, q) => p.map((x, axis) => x - q[axis]);
 const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
 const norm = (p) => Math.hypot(...p);
 /** Where points of the mesh are drawn. */
-const placed = (points) => triples(points).map((p) => difference(p, surface.centre).map((x) => surface.scale * x));
+const placed = (points) => triples(points).map((p) => difference(p, surface.center).map((x) => surface.scale * x));
 const at = (vertices) => placed(Float64Array.from([...vertices].flatMap((v) => positions.slice(3 * v, 3 * v + 3))));
 
 function expectPoints(points, expected) {
@@ -44,10 +44,10 @@ function arraysOf(object) {
 
 describe('a surface', () => {
   it('has the arrays of the types, each the caller’s own', () => {
-    const { positions, normals, triangles, vertices, up, centre, scale } = surface;
+    const { positions, normals, triangles, vertices, up, center, scale } = surface;
     expect([positions, normals].map((array) => array.constructor)).toEqual([Float32Array, Float32Array]);
     expect([triangles, vertices].map((array) => array.constructor)).toEqual([Uint32Array, Uint32Array]);
-    expect(centre).toEqual([expect.any(Number), expect.any(Number), expect.any(Number)]);
+    expect(center).toEqual([expect.any(Number), expect.any(Number), expect.any(Number)]);
     expect([typeof scale, up]).toEqual(['number', 'y']);
     for (const array of arraysOf(surface)) expect(array.byteLength).toBe(array.buffer.byteLength);
     scene.surface().positions.fill(7);
@@ -138,15 +138,34 @@ describe('a draw list', () => {
     expect(new Set(scene.drawList(new Float32Array(field.length).fill(3)).shades)).toEqual(new Set([0.5]));
   });
 
-  it('has the colours of its map', () => {
-    const ends = ({ colours }) => [...colours.subarray(0, 3), ...colours.subarray(-3)];
+  it('has no shade where there is no value', () => {
+    expect(list().gap).toBe(null);
+    expect(list({ missing: 'omit' })).toEqual(list());
+    const missing = [5, 17, 40];
+    const values = Float64Array.from(field, (value, v) => (missing.includes(v) ? NaN : value));
+    const { shades, gap, range, solids, lines } = scene.drawList(values, { missing: 'omit', levels: [0.2] });
+    expect(surface.vertices.filter((_, corner) => Number.isNaN(shades[corner]))).toEqual(Uint32Array.from(missing));
+    expect(gap).toBe(0xaaaaaa);
+    // All else is that of the part that has values.
+    const { mesh: part, vertices } = mesh.withoutMissing(values);
+    const known = Float64Array.from(vertices, (v) => values[v]);
+    const found = part.criticalPoints(known);
+    const drawn = solids.flatMap((solid) => [...solid.vertices]).sort((a, b) => a - b);
+    expect(drawn).toEqual([...found.vertices].map((v) => vertices[v]).sort((a, b) => a - b));
+    expect(range).toEqual([Math.min(...known), Math.max(...known)]);
+    expect(lines[0].points).toHaveLength(part.levelSets(known, [0.2]).points.length);
+    part.free();
+  });
+
+  it('has the colors of its map', () => {
+    const ends = ({ colors }) => [...colors.subarray(0, 3), ...colors.subarray(-3)];
     expect(ends(list())).toEqual([68, 1, 84, 253, 231, 37]);
     expect(ends(list({ colormap: 'coolWarm' }))).toEqual([59, 76, 192, 180, 4, 38]);
-    const { colours } = list({ colormap: 'magma' });
-    expect(colours).toBeInstanceOf(Uint8Array);
-    expect(colours.length % 3).toBe(0);
+    const { colors } = list({ colormap: 'magma' });
+    expect(colors).toBeInstanceOf(Uint8Array);
+    expect(colors.length % 3).toBe(0);
     // No step that an eye would see.
-    for (let k = 3; k < colours.length; k++) expect(Math.abs(colours[k] - colours[k - 3])).toBeLessThanOrEqual(4);
+    for (let k = 3; k < colors.length; k++) expect(Math.abs(colors[k] - colors[k - 3])).toBeLessThanOrEqual(4);
   });
 
   it('says its levels, ascending and each once', () => {
@@ -158,21 +177,21 @@ describe('a draw list', () => {
     expect(list({ levels: [] }).levels).toEqual(new Float64Array(0));
   });
 
-  it('has steps in its colours between bands', () => {
+  it('has steps in its colors between bands', () => {
     const levels = [-1, 0, 0.25, 1.5];
-    const { colours, range } = list({ bands: true, levels: [...levels, -99, 99] });
-    const steps = colours.length / 3 - 1;
-    const colour = (k) => colours.subarray(3 * k, 3 * k + 3).join();
-    const places = Array.from({ length: steps }, (_, k) => k + 1).filter((k) => colour(k) !== colour(k - 1));
+    const { colors, range } = list({ bands: true, levels: [...levels, -99, 99] });
+    const steps = colors.length / 3 - 1;
+    const color = (k) => colors.subarray(3 * k, 3 * k + 3).join();
+    const places = Array.from({ length: steps }, (_, k) => k + 1).filter((k) => color(k) !== color(k - 1));
     expect(places).toHaveLength(levels.length);
     for (const [k, place] of places.entries()) {
       const shade = (levels[k] - range[0]) / (range[1] - range[0]);
       expect(place / steps - shade).toBeGreaterThanOrEqual(0);
       expect(place / steps - shade).toBeLessThan(1 / steps);
     }
-    // Each band has the colour of its middle.
-    const even = list({ bands: true, levels: { count: 1 }, range: [0, 1] }).colours;
-    const smooth = list().colours;
+    // Each band has the color of its middle.
+    const even = list({ bands: true, levels: { count: 1 }, range: [0, 1] }).colors;
+    const smooth = list().colors;
     const near = (part) =>
       smooth.subarray(3 * Math.round((part * smooth.length) / 3), 3 * Math.round((part * smooth.length) / 3) + 3);
     for (const [place, part] of [
@@ -181,7 +200,7 @@ describe('a draw list', () => {
     ]) {
       expect(norm(difference([...even.subarray(place, place + 3)], [...near(part)]))).toBeLessThan(4);
     }
-    expect(new Set(list({ bands: true, levels: [] }).colours.slice(0, 300)).size).toBeLessThanOrEqual(3);
+    expect(new Set(list({ bands: true, levels: [] }).colors.slice(0, 300)).size).toBeLessThanOrEqual(3);
   });
 
   it('has the lines of level sets', () => {
@@ -221,7 +240,7 @@ describe('a draw list', () => {
     const { solids, size } = list();
     expect(solids.map(({ kind }) => kind)).toEqual(['minima', 'saddles', 'maxima']);
     for (const [which, sign] of [-1, 0, 1].entries()) {
-      const { shape, colour, rim, glow, radius, lift, places, axes, ...solid } = solids[which];
+      const { shape, color, rim, glow, radius, lift, places, axes, ...solid } = solids[which];
       expect(solid.vertices).toEqual(vertices.filter((_, k) => kinds[k] === sign));
       expectPoints(places, at(solid.vertices));
       expectPoints(
@@ -234,8 +253,8 @@ describe('a draw list', () => {
         12,
       );
       expect(lift).toBeGreaterThanOrEqual(0);
-      expectColour(colour);
-      expectColour(rim.colour);
+      expectColor(color);
+      expectColor(rim.color);
       expect(rim.scale).toBeGreaterThan(1);
       expect(glow).toBeGreaterThanOrEqual(0);
       expect(glow).toBeLessThanOrEqual(1);
@@ -243,7 +262,7 @@ describe('a draw list', () => {
       expect(shape.normals).toHaveLength(shape.positions.length);
       expect(Math.max(...shape.triangles)).toBe(shape.positions.length / 3 - 1);
     }
-    expect(new Set(solids.map(({ colour }) => colour)).size).toBe(3);
+    expect(new Set(solids.map(({ color }) => color)).size).toBe(3);
     expect(list({ criticalPoints: false }).solids).toEqual([]);
     const one = { vertices: [7], kinds: Int8Array.of(0) };
     expect(list({ criticalPoints: one }).solids.map(({ kind, vertices }) => [kind, ...vertices])).toEqual([
@@ -273,18 +292,18 @@ describe('a draw list', () => {
   });
 });
 
-function expectColour(colour) {
-  expect(Number.isInteger(colour)).toBe(true);
-  expect(colour).toBeGreaterThanOrEqual(0);
-  expect(colour).toBeLessThanOrEqual(0xffffff);
+function expectColor(color) {
+  expect(Number.isInteger(color)).toBe(true);
+  expect(color).toBeGreaterThanOrEqual(0);
+  expect(color).toBeLessThanOrEqual(0xffffff);
 }
 
-function expectStroke({ colour, width, opacity, casing }) {
-  expectColour(colour);
+function expectStroke({ color, width, opacity, casing }) {
+  expectColor(color);
   expect(width).toBeGreaterThan(0);
   expect(opacity).toBeGreaterThan(0);
   expect(opacity).toBeLessThanOrEqual(1);
   if (casing === null) return;
-  expectColour(casing.colour);
+  expectColor(casing.color);
   expect(casing.width).toBeGreaterThan(width);
 }

@@ -203,7 +203,7 @@ describe('refused', () => {
       expectError(() => method([1, 2, 3, 4n]), 'InvalidArgument', { argument: 'values', index: 3 });
       expectError(() => method('1234'), 'InvalidArgument', { argument: 'values' });
       expectError(() => method(), 'InvalidArgument', { argument: 'values' });
-      expectError(() => method(new Int32Array(4)), 'InvalidArgument', { argument: 'values' });
+      expectError(() => method(new BigInt64Array(4)), 'InvalidArgument', { argument: 'values' });
       expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');
       const transferred = new Float64Array(4);
       structuredClone(transferred.buffer, { transfer: [transferred.buffer] });

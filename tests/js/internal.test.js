@@ -1,10 +1,14 @@
 // What cannot be brought about from outside: failures that would be bugs of ours.
 import { describe, expect, it } from 'vitest';
-import { MorseSmoothError, attempt } from '../../src/js/error.js';
+import { MorseSmoothError } from '../../src/js/runtime/error.js';
+import { Instance } from '../../src/js/runtime/instance.js';
 
-const thrownBy = (call) => {
+/** An instance whose module does nothing but what a call does. */
+const empty = () => new Instance({ setAside: () => 0, abandon() {} }, 'a module');
+
+const thrownBy = (call, instance = empty()) => {
   try {
-    attempt(call);
+    instance.call(call);
   } catch (error) {
     return error;
   }
@@ -34,10 +38,23 @@ describe('a failure inside the module', () => {
   });
 
   it('that it reports keeps its code, message and detail', () => {
-    const error = thrownBy(() => {
+    const report = () => {
       throw { code: 'ZeroArea', message: 'all triangles have zero area', detail: { triangle: 3 } };
-    });
+    };
+    const instance = empty();
+    const error = thrownBy(report, instance);
     expect(error).toBeInstanceOf(MorseSmoothError);
     expect(error).toMatchObject({ code: 'ZeroArea', message: 'all triangles have zero area', detail: { triangle: 3 } });
+    expect(instance.isLost).toBe(false);
+    expect(thrownBy(report, instance)).toMatchObject({ code: 'ZeroArea' });
+  });
+
+  it('that it does not report loses the instance', () => {
+    const instance = empty();
+    thrownBy(() => {
+      throw new RangeError('Maximum call stack size exceeded');
+    }, instance);
+    expect(instance.isLost).toBe(true);
+    expect(thrownBy(() => 1, instance)).toMatchObject({ code: 'InstanceLost' });
   });
 });

@@ -179,7 +179,7 @@ describe('refused', () => {
     for (const saddles of [false, 1, 'all', () => true]) {
       expectError(call({ saddles }), 'InvalidArgument', { argument: 'saddles' });
     }
-    for (const saddles of [{}, new Float64Array(1), new Int32Array(1), new Map()]) {
+    for (const saddles of [{}, new Float64Array(1), new BigInt64Array(1), new Map()]) {
       expectError(call({ saddles }), 'InvalidArgument', { argument: 'saddles' });
     }
     expectError(call({ saddles: ['0'] }), 'InvalidArgument', { argument: 'saddles', index: 0 });

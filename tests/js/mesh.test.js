@@ -130,11 +130,12 @@ describe('refused', () => {
   it.each([
     ['a string', 'x', triangles, 'InvalidArgument', { argument: 'positions' }],
     ['nothing', undefined, undefined, 'InvalidArgument', { argument: 'positions' }],
-    ['null triangles', positions, null, 'InvalidArgument', { argument: 'triangles' }],
+    ['a soup of four vertices', positions, null, 'TrianglesNotTriples', { length: 4 }],
+    ['no triangles', positions, undefined, 'InvalidArgument', { argument: 'triangles' }],
     ['bigints', new BigInt64Array(12), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['a DataView', new DataView(new ArrayBuffer(96)), triangles, 'InvalidArgument', { argument: 'positions' }],
     ['an object like an array', { length: 12 }, triangles, 'InvalidArgument', { argument: 'positions' }],
-    ['signed ids', positions, new Int32Array(12), 'InvalidArgument', { argument: 'triangles' }],
+    ['big integers as ids', positions, new BigInt64Array(12), 'InvalidArgument', { argument: 'triangles' }],
     [
       'a string among numbers',
       positions.with(4, '1'),

@@ -214,7 +214,7 @@ describe('the Morse hierarchy', () => {
     for (const values of fields(shapes[name])) {
       const hierarchy = mesh.morseHierarchy(values);
       for (const threshold of thresholds) {
-        const simple = threshold > 0 ? mesh.simplify(values, { threshold }) : values;
+        const simple = threshold > 0 ? mesh.simplify(values, { threshold }).values : values;
         const { vertices, kinds, counts } = mesh.criticalPoints(simple);
         const left = lookUp(hierarchy, threshold * rangeOf(shapes[name], values));
         expect([left.minima.length, left.saddles.length, left.maxima.length]).toEqual([

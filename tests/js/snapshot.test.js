@@ -220,7 +220,7 @@ describe('a scene', () => {
     expectError(make(positions, triangles.slice(1)), 'TrianglesNotTriples', { length: 11 });
     expectError(make(positions, triangles.with(11, 4)), 'IndexOutOfBounds', { triangle: 3, index: 4, vertices: 4 });
     expectError(make(positions, triangles.with(11, -1)), 'IndexOutOfBounds', { triangle: 3, index: -1 });
-    for (const bad of [undefined, null, 'x', {}, new Map(), new Int32Array(12)]) {
+    for (const bad of [undefined, null, 'x', {}, new Map(), new BigInt64Array(12)]) {
       expectError(make(bad, triangles), 'InvalidArgument', { argument: 'positions' });
       expectError(make(positions, bad), 'InvalidArgument', { argument: 'triangles' });
       expectError(() => snapshot(bad, triangles, [1, 2, 3, 4]), 'InvalidArgument', { argument: 'positions' });
@@ -246,7 +246,7 @@ describe('a scene', () => {
       expectError(() => method([1, 2, NaN, 4]), 'NonFiniteValue', { vertex: 2 });
       expectError(() => method([1, 2, 3, -Infinity]), 'NonFiniteValue', { vertex: 3 });
       expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');
-      for (const bad of ['1234', undefined, null, {}, new Int32Array(4), [1, 2, 3, 4n]]) {
+      for (const bad of ['1234', undefined, null, {}, new BigInt64Array(4), [1, 2, 3, 4n]]) {
         expectError(() => method(bad), 'InvalidArgument');
       }
       expect(() => method([1, 2, 3, 4])).not.toThrow();

@@ -125,7 +125,7 @@ describe.runIf(existsSync(reference))('reference data', () => {
           const row = curve.threshold.findLastIndex((from) => from <= threshold);
           expect([curve.minima[row], curve.maxima[row]], `curve at ${relative}`).toEqual(expectedCounts);
 
-          const simple = mesh.simplify(values, { threshold: Number(relative) });
+          const { values: simple } = mesh.simplify(values, { threshold: Number(relative) });
           const { counts } = mesh.criticalPoints(simple);
           expect([counts.minima, counts.maxima], `simplified by ${relative}`).toEqual(expectedCounts);
           const change = simple.reduce((most, value, v) => Math.max(most, Math.abs(value - values[v])), 0);

@@ -63,7 +63,7 @@ new TriMesh(new Float64Array(9), new Uint32Array(3));
 // @ts-expect-error strings are not numbers
 new TriMesh(['0'], [0]);
 // @ts-expect-error ids are not signed
-new TriMesh([0, 0, 0], new Int32Array(3));
+new TriMesh([0, 0, 0], new BigInt64Array(3));
 // @ts-expect-error big integers are not numbers
 new TriMesh(new BigInt64Array(9), [0, 1, 2]);
 // @ts-expect-error a mesh cannot be changed
@@ -151,7 +151,7 @@ mesh.persistence(heat, { threshold: 0.1 });
 // @ts-expect-error strings are not numbers
 mesh.persistenceCurve(['1', '2', '3']);
 
-const simple: Float64Array = mesh.simplify(heat, { threshold: 0.1 });
+const simple: { values: Float64Array; unavoidable: Uint32Array } = mesh.simplify(heat, { threshold: 0.1 });
 mesh.simplify([1, 2, 3], { threshold: 3, thresholdIs: 'absolute' });
 mesh.simplify(heat, { keep: extrema });
 mesh.simplify(heat, { keep: new Uint16Array(2) });
@@ -164,7 +164,7 @@ mesh.simplify(heat, { thresholdIs: 'relative' });
 // @ts-expect-error one of two
 mesh.simplify(heat, { threshold: 0.1, thresholdIs: 'percent' });
 // @ts-expect-error ids are not signed
-mesh.simplify(heat, { keep: new Int32Array(2) });
+mesh.simplify(heat, { keep: new BigInt64Array(2) });
 
 const complex: api.MorseComplex = mesh.morseComplex(heat, { persistence: 0.1, paths: 'merged' });
 const morsePolylines: api.Polylines = complex;
@@ -264,7 +264,7 @@ mesh.constrainedVertices([1, 2, 3], [0]);
 // @ts-expect-error constraints have no default
 mesh.constrainedVertices(heat);
 // @ts-expect-error ids are not signed
-mesh.constrainedVertices(heat, new Int32Array(2));
+mesh.constrainedVertices(heat, new BigInt64Array(2));
 // @ts-expect-error a number alone is none
 mesh.constrainedVertices(heat, 7);
 // @ts-expect-error it must be said where they come from

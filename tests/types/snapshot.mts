@@ -91,15 +91,16 @@ scene.sheet(heat, heat, all);
 new Scene(mesh);
 
 const surface: api.Surface = scene.surface();
-const { normals, vertices, up, centre, scale } = surface;
+const { normals, vertices, up, center, scale } = surface;
 same<[typeof normals, typeof vertices, typeof up], [Float32Array, Uint32Array, 'y' | 'z']>(true);
-same<[typeof centre, typeof scale], [[number, number, number], number]>(true);
+same<[typeof center, typeof scale], [[number, number, number], number]>(true);
 
 const drawing: api.DrawOptions = { levels: [1, 2], bands: true, colormap: names[0], range: [0, 1] };
 const list: api.DrawList = scene.drawList(heat, drawing);
-const { shades, colours, range, levels, lines, solids, size, light } = list;
+const { shades, colors, gap, range, levels, lines, solids, size, light } = list;
 same<typeof levels, Float64Array>(true);
-same<[typeof shades, typeof colours, typeof range], [Float32Array, Uint8Array, [number, number]]>(true);
+same<typeof gap, number | null>(true);
+same<[typeof shades, typeof colors, typeof range], [Float32Array, Uint8Array, [number, number]]>(true);
 same<[typeof lines, typeof solids], [api.Lines[], api.Solids[]]>(true);
 same<[typeof size, typeof light], [api.SolidSize, api.Light]>(true);
 same<api.Lines['kind'], 'levels' | 'descending' | 'ascending'>(true);
@@ -119,4 +120,4 @@ scene.drawList(heat, { width: 300 });
 }
 scene.free();
 
-export const used = [ready, isOurs, png, wide, casing, rim.colour, glow, radius, lift, size.cover, light.direction];
+export const used = [ready, isOurs, png, wide, casing, rim.color, glow, radius, lift, size.cover, light.direction];

@@ -24,7 +24,7 @@ export interface CriticalPoints {
   vertices: Uint32Array;
   /** −1 minimum, 0 saddle, 1 maximum. */
   kinds: Int8Array;
-  /** Of a saddle: 1 for an ordinary one, 2 for a monkey saddle, … Of an extremum: 1. */
+  /** How often each vertex counts: an ordinary saddle once, a monkey saddle twice, …; an extremum once. */
   multiplicities: Uint32Array;
   /** 1 on the boundary, else 0. */
   onBoundary: Uint8Array;
@@ -51,7 +51,7 @@ export interface Polylines {
 
 /** Level sets. A closed line does not repeat its first point. */
 export interface LevelSets extends Polylines {
-  /** The level of each line. */
+  /** The level of each line, not one entry for each level: a level can have several lines, or none. */
   levels: Float64Array;
   /** 1 for each line that closes, 0 for one that ends at the boundary. */
   closed: Uint8Array;
@@ -69,7 +69,7 @@ export interface SaddleLevels {
   offset?: number;
 }
 
-/** See {@link TriMesh.bands}. */
+/** The mesh cut along level sets: see {@link TriMesh.bands}. */
 export interface Bands {
   /** The levels, ascending, each once. */
   levels: Float64Array;
@@ -87,7 +87,7 @@ export interface Bands {
   parameters: Float64Array;
 }
 
-/** See {@link TriMesh.deltaHierarchy}. A vertex is critical at δ = 0, and at every δ below the one at which it vanishes. */
+/** The critical points at every δ: see {@link TriMesh.deltaHierarchy}. A vertex is critical at δ = 0, and at every δ below the one at which it vanishes. */
 export interface DeltaHierarchy {
   /** Every critical vertex at δ = 0, ascending. */
   vertices: Uint32Array;
@@ -108,7 +108,7 @@ export interface DeltaHierarchy {
   saddles: Uint32Array;
 }
 
-/** See {@link TriMesh.persistence}. Entry k of the first six arrays is about the same pair. */
+/** Pairs of extrema and saddles: see {@link TriMesh.persistence}. Entry k of the first six arrays is about the same pair. */
 export interface PersistencePairs {
   extrema: Uint32Array;
   saddles: Uint32Array;
@@ -131,7 +131,7 @@ export interface PersistencePairs {
   essentialSaddles: Uint32Array;
 }
 
-/** See {@link TriMesh.persistenceCurve}. Row k holds from `threshold[k]` up to, not including, `threshold[k + 1]`. */
+/** Numbers of extrema as steps over the threshold: see {@link TriMesh.persistenceCurve}. Row k holds from `threshold[k]` up to, not including, `threshold[k + 1]`. */
 export interface PersistenceCurve {
   /** In units of the field; row 0 is 0. */
   threshold: Float64Array;
@@ -140,12 +140,23 @@ export interface PersistenceCurve {
   maxima: Uint32Array;
 }
 
+/** What {@link TriMesh.simplify} returns. */
+export interface Simplified {
+  /** One value for each vertex. */
+  values: Float64Array;
+  /**
+   * Extrema that were to go, but that no field on this mesh can do without: there are some only where parts of the mesh hang together
+   * in single vertices. Ascending.
+   */
+  unavoidable: Uint32Array;
+}
+
 /** What {@link TriMesh.simplify} is to keep. */
 export type SimplifyOptions =
   | { threshold: number; thresholdIs?: 'relative' | 'absolute'; keep?: undefined }
   | { keep: Ids; threshold?: undefined; thresholdIs?: undefined };
 
-/** See {@link TriMesh.morseComplex}. */
+/** Which lines {@link TriMesh.morseComplex} returns. */
 export interface MorseComplexOptions {
   /** Pairs of persistence up to this are cancelled first. Default 0: none, not even tied ones. */
   persistence?: number;
@@ -171,7 +182,7 @@ export interface MorseComplex extends Polylines {
 }
 
 /**
- * See {@link TriMesh.morseHierarchy}. A saddle of multiplicity k stands for k simple ones, each a node of its own. At a threshold
+ * The Morse complex at every threshold: see {@link TriMesh.morseHierarchy}. A saddle of multiplicity k stands for k simple ones, each a node of its own. At a threshold
  * t > 0 the complex has the nodes with `cancelledAt` above t, and at 0 all of them; an arc leads from its saddle to its extremum or, where that is
  * cancelled, to where `into` leads from there.
  */
@@ -190,7 +201,7 @@ export interface MorseHierarchy {
   arcs: Uint32Array;
 }
 
-/** See {@link TriMesh.basins}. A vertex of no triangle has 4294967295. */
+/** Where the steepest paths end: see {@link TriMesh.basins}. A vertex of no triangle has 4294967295. */
 export interface Basins {
   /** The minimum at which the path downwards ends. */
   descending: Uint32Array;
@@ -198,7 +209,7 @@ export interface Basins {
   ascending: Uint32Array;
 }
 
-/** See {@link TriMesh.smoothness}. */
+/** How rough a field is: see {@link TriMesh.smoothness}. */
 export interface Smoothness {
   sobolev: number;
   laplacianNorm: number;

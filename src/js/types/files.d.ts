@@ -1,3 +1,4 @@
+/** The names of file formats for meshes. */
 export type MeshFormat = 'obj' | 'off' | 'ply' | 'vtk';
 
 /** Something in the input that was put right or left out. */
@@ -12,8 +13,8 @@ export interface Diagnostic {
   examples: number[];
 }
 
-/** What {@link readMesh} found. */
-export interface MeshFile {
+/** What {@link readMesh} found. `using file = readMesh(…)` frees its mesh at the end. */
+export interface MeshFile extends Disposable {
   mesh: TriMesh;
   /** Per-vertex numbers of the file, by their name there. */
   fields: Record<string, Float64Array>;
@@ -27,8 +28,11 @@ export interface ReadMeshOptions {
   format?: MeshFormat;
   /** Only its ending matters. */
   fileName?: string;
-  /** Make one vertex of all vertices at the same position. Default `false`. */
-  weld?: boolean;
+  /**
+   * Whether vertices that lie together become one, as in the constructor of {@link TriMesh}; their values become the mean, with a
+   * warning (`WeldedValues`) where these differ by more than rounding. Default `false`.
+   */
+  weld?: Weld;
 }
 
 /**
@@ -41,9 +45,9 @@ export function readMesh(bytes: Uint8Array, options?: ReadMeshOptions): MeshFile
 
 /** What {@link readField} takes. */
 export interface ReadFieldOptions {
-  /** Default: told from the content. */
+  /** The format. Default: told from the content. */
   format?: 'txt' | 'csv';
-  /** Of a table: its name in the first line, or its number from 0. Default: the first column of numbers. */
+  /** The column of a table: its name in the first line, or its number from 0. Default: the first column of numbers. */
   column?: string | number;
 }
 
@@ -59,7 +63,7 @@ export interface WriteMeshOptions {
   format: MeshFormat;
   /** Fields to write along, by name; PLY and VTK have room for them (otherwise `FieldsNotSupported`). */
   fields?: Record<string, Numbers>;
-  /** PLY and VTK can be binary (otherwise `BinaryNotSupported`). Default `false`. */
+  /** Whether the file is binary, as PLY and VTK can be (otherwise `BinaryNotSupported`). Default `false`. */
   binary?: boolean;
 }
 

@@ -22,6 +22,12 @@ export interface MeshTopology {
 }
 
 /**
+ * Whether vertices that lie together become one: those at the same position (`true`), or also those within `tolerance`, a fraction of
+ * the diagonal of the bounding box, from 0 (default) to below 1. Each becomes the first of them.
+ */
+export type Weld = boolean | { tolerance?: number };
+
+/**
  * A triangle mesh. Any triangles will do: closed, with boundary, of several parts, non-manifold, not orientable.
  *
  * It lives in WebAssembly memory: call {@link TriMesh.free} when done, or declare it with `using`. Used after that it throws
@@ -30,12 +36,12 @@ export interface MeshTopology {
 export class TriMesh {
   /**
    * @param positions x, y, z of vertex 0, then of vertex 1, …
-   * @param triangles three vertex numbers for each triangle
-   * @param options `weld`: make one vertex of all vertices at the same position. Default `false`
+   * @param triangles three vertex numbers for each triangle; `null` for a soup, in which every three vertices are a triangle
+   * @param options `weld`: whether vertices that lie together become one. Default `false`
    * @throws `PositionsNotTriples`, `TrianglesNotTriples`, `NonFinitePosition` (`vertex`), `IndexOutOfBounds` (`triangle`, `index`),
    *   `EmptyMesh`
    */
-  constructor(positions: Numbers, triangles: Ids, options?: { weld?: boolean });
+  constructor(positions: Numbers, triangles: Ids | null, options?: { weld?: Weld });
 
   readonly vertexCount: number;
   readonly edgeCount: number;
@@ -52,12 +58,26 @@ export class TriMesh {
   triangles(): Uint32Array;
 
   /**
+   * For every vertex as it was given the vertex of this mesh that it became by welding; `null` where all are as they were given. A
+   * value for each vertex as given becomes one for each vertex of the mesh through it.
+   */
+  vertexMap(): Uint32Array | null;
+
+  /**
+   * The mesh of the triangles whose three vertices all have a value, which is not `NaN`, and for each of its vertices the vertex of
+   * this mesh; vertices of no triangle are left out. Free it when done.
+   *
+   * @throws `EmptyMesh` where no triangle is left; `LengthMismatch`; `NonFiniteValue` for an infinite value
+   */
+  withoutMissing(values: Numbers): { mesh: TriMesh; vertices: Uint32Array };
+
+  /**
    * Minima, saddles and maxima of a field. Equal values are told apart by their vertex numbers, so that at δ = 0 the index sum
    * is the Euler characteristic, whatever the field.
    *
    * @throws `LengthMismatch` (`expected`, `actual`), `NonFiniteValue` (`vertex`)
    */
-  criticalPoints(values: Numbers, options?: DeltaOptions): CriticalPoints;
+  criticalPoints(values: Numbers, options?: DeltaOptions & AnalysisOptions): CriticalPoints;
 
   /**
    * The lines on which the field has the given values, or `count` values that cut its range into equal parts (none where the field
@@ -66,7 +86,7 @@ export class TriMesh {
    * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `IndexOutOfBounds` (`index`) for a vertex in `saddles`;
    *   `OutOfMemory` (`bytes`) for more points than fit
    */
-  levelSets(values: Numbers, levels: Numbers | { count: number } | SaddleLevels): LevelSets;
+  levelSets(values: Numbers, levels: Numbers | { count: number } | SaddleLevels, options?: AnalysisOptions): LevelSets;
 
   /**
    * The mesh cut along level sets, so that every triangle lies between two levels: band k holds what is at least `levels[k − 1]`
@@ -75,7 +95,7 @@ export class TriMesh {
    * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `InvalidOption` for more than 10,000 levels;
    *   `OutOfMemory` (`bytes`)
    */
-  bands(values: Numbers, levels: Numbers | { count: number }): Bands;
+  bands(values: Numbers, levels: Numbers | { count: number }, options?: AnalysisOptions): Bands;
 
   /**
    * For every critical vertex the δ at which it stops being one, and the number of critical points at every δ. At each δ that is what
@@ -83,17 +103,17 @@ export class TriMesh {
    *
    * @throws `LengthMismatch` (`expected`, `actual`), `NonFiniteValue` (`vertex`)
    */
-  deltaHierarchy(values: Numbers, options?: { link?: Link }): DeltaHierarchy;
+  deltaHierarchy(values: Numbers, options?: { link?: Link } & AnalysisOptions): DeltaHierarchy;
 
   /**
    * Pairs every extremum with the saddle at which its component of the sublevel (superlevel) set joins that of a lower (higher)
    * extremum. The most persistent pair comes first. Slower where sheets meet, and slow on soups in which most edges have many
    * triangles.
    */
-  persistence(values: Numbers): PersistencePairs;
+  persistence(values: Numbers, options?: AnalysisOptions): PersistencePairs;
 
   /** How many extrema {@link TriMesh.simplify} leaves, for every threshold. */
-  persistenceCurve(values: Numbers): PersistenceCurve;
+  persistenceCurve(values: Numbers, options?: AnalysisOptions): PersistenceCurve;
 
   /**
    * A field near the given one that has no other extrema than those of persistence above the threshold (`thresholdIs`:
@@ -104,33 +124,36 @@ export class TriMesh {
    *
    * What is kept is told by the pairs of the given field; in the result, these extrema may be less persistent.
    *
-   * @throws `NotAnExtremum` (`vertex`), `IndexOutOfBounds` (`index`) for a vertex in `keep`; `Unconstrained` (`component`) where `keep` has no minimum or no
-   *   maximum in a component; `UnavoidableExtremum` (`vertex`) where the mesh hangs together in a single vertex and has no room for
-   *   such a field
+   * @throws `NotAnExtremum` (`vertex`), `IndexOutOfBounds` (`index`) for a vertex in `keep`; `Unconstrained` (`component`) where
+   *   `keep` has no minimum or no maximum in a component
    */
-  simplify(values: Numbers, options: SimplifyOptions): Float64Array;
+  simplify(values: Numbers, options: SimplifyOptions & AnalysisOptions): Simplified;
 
   /**
    * From each saddle the steepest paths along edges, one for each component of its lower and of its upper link, to the extrema
    * where they end. Paths of the same direction that meet go on together.
    */
-  morseComplex(values: Numbers, options?: MorseComplexOptions): MorseComplex;
+  morseComplex(values: Numbers, options?: MorseComplexOptions & AnalysisOptions): MorseComplex;
 
   /** The Morse complex at every threshold: what is cancelled when, and into what. */
-  morseHierarchy(values: Numbers): MorseHierarchy;
+  morseHierarchy(values: Numbers, options?: AnalysisOptions): MorseHierarchy;
 
   /**
    * For every vertex the minimum and the maximum at which its steepest path ends, where pairs of persistence up to
    * `persistence` are cancelled, as in {@link TriMesh.morseComplex}; by default none.
    */
-  basins(values: Numbers, options?: Omit<MorseComplexOptions, 'paths'>): Basins;
+  basins(values: Numbers, options?: Omit<MorseComplexOptions, 'paths'> & AnalysisOptions): Basins;
 
   /**
    * The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
    *
    * @throws `IndexOutOfBounds` (`index`); `InvalidOption`, such as for 0 clusters
    */
-  constrainedVertices(values: Numbers, constraints: Constraints, options?: ChannelOptions): Uint32Array;
+  constrainedVertices(
+    values: Numbers,
+    constraints: Constraints,
+    options?: ChannelOptions & ProgressOptions,
+  ): Uint32Array;
 
   /** How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. */
   smoothness(values: Numbers, options?: { weights?: LaplacianWeights }): Smoothness;

@@ -12,14 +12,50 @@
  * @module
  */
 
-/** Numbers as they are taken. Values of a plain array must all be of type `number` (otherwise `InvalidArgument`). */
-export type Numbers = Float64Array | Float32Array | readonly number[];
-/** Vertex numbers as they are taken: whole, from 0 to 2³² − 1. */
-export type Ids = Uint32Array | Uint16Array | readonly number[];
+/** A typed array of integers. Those of `BigInt`s are none, and are refused (`InvalidArgument`). */
+export type Integers = Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array;
+/** Numbers as they are taken. The entries of an ordinary array must all be of type `number` (otherwise `InvalidArgument`). */
+export type Numbers = Float64Array | Float32Array | Integers | readonly number[];
+/** Vertex numbers as they are taken: whole, from 0 to 2³² − 1 (otherwise `IndexOutOfBounds`). */
+export type Ids = Integers | readonly number[];
+
+/** How far a long call has come. */
+export interface Progress {
+  /** What is being done: `"field"` is reading a field, by any of the analyses; the others are the steps of a smoothing. */
+  phase: 'analysis' | 'factorization' | 'solve' | 'report' | 'field';
+  /** How much of the whole is done, from 0 to 1; it never goes back. */
+  fraction: number;
+}
+
+/** What every long call takes. */
+export interface ProgressOptions {
+  /**
+   * The function that is called every few milliseconds while work goes on. Where it returns `false` the work stops and the call fails
+   * with `Cancelled`; what it throws stops the work, too, and comes out of the call as it is. All objects stay as they were before
+   * the call, and usable.
+   */
+  onProgress?: (progress: Progress) => void | boolean;
+}
+
+/** What to make of values that are missing, which are `NaN`. An infinite value is always an error (`NonFiniteValue`). */
+export interface MissingOptions {
+  /**
+   * `"error"` (default): a missing value fails with `NonFiniteValue` (`vertex`). `"omit"`: triangles with a missing vertex are left
+   * out, as if the mesh had a hole there; what is asked about such a vertex fails with `MissingValue` (`vertex`).
+   */
+  missing?: 'error' | 'omit';
+}
+
+/** What every analysis of a field takes. */
+export type AnalysisOptions = MissingOptions & ProgressOptions;
 
 /**
  * Loads the WebAssembly module. In a browser, wait for it before any other call (otherwise `NotInitialized`); in Node the import
  * has already done it. Calling it again is free and gives the same promise; after a failure it tries anew.
+ *
+ * Where a call failed inside the module with `InternalError`, that instance of the module is lost: all calls on its objects fail with
+ * `InstanceLost`, and `free` does nothing. Call `init` again then, which makes another instance (of the code at hand, unless
+ * `options.wasm` gives other code), and make the objects anew. In Node another instance is made by itself for the next new object.
  *
  * @throws `LoadFailed` where the module cannot be fetched or compiled; `detail` has `url` and `status` if a server answered.
  */
@@ -34,12 +70,12 @@ export interface InitOptions {
   wasm?: URL | string | Request | Response | BufferSource | WebAssembly.Module;
 }
 
-/** Of this package, such as `"0.1.0"`. */
+/** The version of this package, such as `"0.1.0"`. */
 export const version: string;
 
 /** Any failure of this package. */
 export class MorseSmoothError extends Error {
-  /** For code that carries errors across threads; this package makes its own. */
+  /** The constructor is for code that carries errors across threads; this package makes its own errors. */
   constructor(code: string, message: string, detail?: Record<string, unknown>, options?: { cause?: unknown });
   /**
    * Names the failure for programs; stays the same while messages improve.
@@ -49,13 +85,13 @@ export class MorseSmoothError extends Error {
    *   `FieldsNotSupported`, `BinaryNotSupported`
    * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`,
    *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
-   * - fields: `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `NonFiniteLevel`
+   * - fields: `LengthMismatch`, `NonFiniteValue`, `MissingValue`, `RangeOverflow`, `NonFiniteLevel`, `NotAnExtremum`
    * - smoothing: `Unconstrained`, `InvalidWeight`, `Diverged`
    * - systems: `NotPositiveDefinite` (`column`: the vertex at which a factorisation or an iteration failed),
-   *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached), `OutOfMemory`
-   *   (`bytes` needed)
+   *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached)
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
-   * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`
+   * - any long call: `Cancelled`, where `onProgress` stopped it; `OutOfMemory` (`bytes` needed), after which everything goes on
+   * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`, `InstanceLost` (see {@link init})
    * - `InternalError`: a bug of ours, always worth a report
    */
   readonly code: string;

@@ -28,16 +28,8 @@ export type Operator = 'paper' | 'fem';
  */
 export type Precision = 'double' | 'single';
 
-/** How far a long call has come. */
-export interface Progress {
-  /** What begins now. */
-  phase: 'analysis' | 'factorization' | 'solve' | 'report';
-  /** How much of the whole is done: from 0 to 1. Goes back where a way to solve the system is given up for another one. */
-  fraction: number;
-}
-
 /** How systems are set up and solved. */
-export interface SmootherOptions {
+export interface SmootherOptions extends ProgressOptions {
   /** Default `"cotangent"`, and operator `"fem"` has no other: `InapplicableOption`. */
   weights?: LaplacianWeights;
   /** Default `"paper"`. */
@@ -48,15 +40,13 @@ export interface SmootherOptions {
    * needs less memory where that is short. {@link SolverReport.route} says which it was.
    */
   solver?: 'auto' | 'cholesky' | 'cg';
-  /** Of factors; iterations without one are in double precision. Default `"double"`. */
+  /** The precision of factors; iterations without one are in double precision. Default `"double"`. */
   precision?: Precision;
   /** Whether to find {@link SmoothReport.perturbationFactor} for every result, which takes some more solves. Default false. */
   bounds?: boolean;
-  /** Called while work goes on. What it throws comes out of that call; the objects stay usable. */
-  onProgress?: (progress: Progress) => void;
 }
 
-/** Of Tikhonov smoothing. */
+/** The options of Tikhonov smoothing. */
 export interface TikhonovOptions {
   /**
    * ε > 0, without a unit (with scale `"raw"`: per area; with operator `"fem"`: per length⁴). Large keeps the field, small
@@ -69,7 +59,7 @@ export interface TikhonovOptions {
   massScale?: MassScale;
 }
 
-/** Of Tikhonov smoothing with operator `"fem"`, by a length instead of ε. */
+/** The options of Tikhonov smoothing with operator `"fem"`, by a length instead of ε. */
 export interface WavelengthOptions {
   /**
    * Waves of this length ℓ, in the units of the mesh, are left with half their amplitude, shorter ones with less: ε is
@@ -126,13 +116,13 @@ export interface KMeansConstraints {
   from: 'kMeans';
   /** 1 or more. */
   clusters: number;
-  /** Of the random numbers it begins with; the same seed gives the same vertices. Default 0. */
+  /** The seed of the random numbers that the search begins with; the same seed gives the same vertices. Default 0. */
   seed?: number;
   /** Default `true`. */
   stars?: boolean;
 }
 
-/** Of the methods with constraints. */
+/** The options of the methods with constraints. */
 export interface ConstraintOptions extends ChannelOptions {
   constraints: Constraints;
   /**
@@ -142,7 +132,7 @@ export interface ConstraintOptions extends ChannelOptions {
   unconstrained?: 'error' | 'keep' | 'mean';
 }
 
-/** Of interpolation. */
+/** The options of interpolation. */
 export interface InterpolateOptions extends ConstraintOptions {
   /**
    * `"harmonic"` (default): Lx = 0 at every vertex that is not constrained, the paper's reduced system. `"biharmonic"`: ‖Lx‖ as
@@ -151,7 +141,7 @@ export interface InterpolateOptions extends ConstraintOptions {
   energy?: 'harmonic' | 'biharmonic';
 }
 
-/** Of least squares with constraints. */
+/** The options of least squares with constraints. */
 export interface LeastSquaresOptions extends ConstraintOptions {
   /** ε > 0, without a unit (with operator `"fem"`: per length²). Large fits the constrained values, small smooths. */
   epsilon: number;
@@ -162,22 +152,22 @@ export interface LeastSquaresOptions extends ConstraintOptions {
   weights?: Numbers;
 }
 
-/** Of the low-pass filter. */
+/** The options of the low-pass filter. */
 export interface LowPassOptions extends ChannelOptions {
-  /** How often. 0 leaves the field as it is. */
+  /** How often the filter is applied. 0 leaves the field as it is. */
   iterations: number;
-  /** Of the step x ← x − λD⁻¹Lx, D the diagonal of L: above 0, up to 1. Default 0.5. */
+  /** The λ of the step x ← x − λD⁻¹Lx, D the diagonal of L: above 0, up to 1. Default 0.5. */
   lambda?: number;
   /**
-   * Of a second step x ← x − μD⁻¹Lx in each iteration: from −1 to 0. Below −λ it undoes the shrinking (Taubin's λ|μ filter, such as
+   * The μ of a second step x ← x − μD⁻¹Lx in each iteration: from −1 to 0. Below −λ it undoes the shrinking (Taubin's λ|μ filter, such as
    * 0.5 and −0.53). Default 0: plain diffusion.
    */
   mu?: number;
 }
 
-/** Of the bilateral filter. */
+/** The options of the bilateral filter. */
 export interface BilateralOptions extends ChannelOptions {
-  /** How often. 0 leaves the field as it is. */
+  /** How often the filter is applied. 0 leaves the field as it is. */
   iterations: number;
   /** Neighbours of a vertex are the vertices within this distance through space, in the units of the mesh. Positive. */
   radius: number;
@@ -187,7 +177,10 @@ export interface BilateralOptions extends ChannelOptions {
   sigmaValue: number;
 }
 
-/** Smooths fields on one mesh. What depends on the mesh alone is worked out once. */
+/**
+ * Smooths fields on one mesh. What depends on the mesh alone is worked out once. Every method calls its own `onProgress`, or else the
+ * one that the smoother was made with.
+ */
 export class Smoother {
   /** The mesh may be freed afterwards. */
   constructor(mesh: TriMesh, options?: SmootherOptions);
@@ -200,8 +193,8 @@ export class Smoother {
    *   `IndefinitePreconditioner` or `NotConverged` where ε is too small for the mesh; `OutOfMemory` where the mesh is too large
    *   for the solver chosen
    */
-  tikhonov(values: Numbers, options: TikhonovOptions & ChannelOptions): Smoothed;
-  tikhonov(values: Numbers, options: WavelengthOptions & ChannelOptions): Smoothed;
+  tikhonov(values: Numbers, options: TikhonovOptions & ChannelOptions & ProgressOptions): Smoothed;
+  tikhonov(values: Numbers, options: WavelengthOptions & ChannelOptions & ProgressOptions): Smoothed;
 
   /**
    * Keeps the values of the constrained vertices to the last bit, and finds smooth ones for the others. With stars, all
@@ -210,7 +203,7 @@ export class Smoother {
    *
    * @throws as {@link Smoother.tikhonov}; `Unconstrained`; `IndexOutOfBounds` (`index`) for a constrained vertex
    */
-  interpolate(values: Numbers, options: InterpolateOptions): Smoothed;
+  interpolate(values: Numbers, options: InterpolateOptions & ProgressOptions): Smoothed;
 
   /**
    * The minimiser x of ‖Lx‖² + ε·Σ w_i (x_i − f_i)² over the constrained vertices i, from (LᵀL + εΔ) x = εΔf (the paper's eq. 7):
@@ -218,20 +211,20 @@ export class Smoother {
    *
    * @throws as {@link Smoother.interpolate}; `LengthMismatch` or `InvalidWeight` (`vertex`, `index`) for the weights
    */
-  leastSquares(values: Numbers, options: LeastSquaresOptions): Smoothed;
+  leastSquares(values: Numbers, options: LeastSquaresOptions & ProgressOptions): Smoothed;
 
   /**
    * Laplacian filtering, step by step: what the paper compares itself with. No system is solved.
    *
    * @throws `Diverged` (`iterations`) where negative weights make the values grow beyond all bounds
    */
-  lowPass(values: Numbers, options: LowPassOptions): Smoothed;
+  lowPass(values: Numbers, options: LowPassOptions & ProgressOptions): Smoothed;
 
   /**
    * The bilateral filter, which the paper compares itself with as well: every value moves by the mean difference to its neighbours,
    * weighted by distance and by difference, so that steps stay sharp. Takes time in proportion to the vertices within the radius.
    */
-  bilateral(values: Numbers, options: BilateralOptions): Smoothed;
+  bilateral(values: Numbers, options: BilateralOptions & ProgressOptions): Smoothed;
 
   /** Gives the memory back, as {@link TriMesh.free} does. */
   free(): void;
@@ -240,20 +233,20 @@ export class Smoother {
 
 /** A smoothed field and what became of it. */
 export interface Smoothed {
-  /** As they came in: same units, same order, channels side by side. */
+  /** The values as they came in: in the same units and order, channels side by side. */
   values: Float64Array;
-  /** Of the first channel. */
+  /** The report of the first channel. */
   report: SmoothReport;
-  /** Of every channel. */
+  /** The reports of all channels. */
   reports: SmoothReport[];
 }
 
 /** What smoothing did to a field f. Norms and differences are those of f scaled to [0, 1], so that fields can be compared. */
 export interface SmoothReport {
   method: 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral';
-  /** Of the paper, such as `"(5)"`, or one of its references; `"fem"` for that operator. */
+  /** The equation of the paper, such as `"(5)"`, or one of its references; `"fem"` for that operator. */
   equation: string;
-  /** `null` where there is none. */
+  /** The ε that was used; `null` where there is none. */
   epsilon: number | null;
   /** How many vertices are constrained, stars included. */
   constraintCount: number;
@@ -283,7 +276,7 @@ export interface SmoothReport {
    * where rounding hides the least eigenvalue.
    */
   perturbationFactor: number | null;
-  /** `null` but for harmonic interpolation. */
+  /** What harmonic interpolation promises about extrema; `null` for all else. */
   maximumPrinciple: MaximumPrinciple | null;
   solver: SolverReport;
 }
@@ -298,7 +291,7 @@ export interface MaximumPrinciple {
   smallestWeight: number;
   /** Free vertices that are extrema among the neighbours that L couples them with, by more than rounding (1e-12 of the range). */
   extrema: number;
-  /** Likewise among the neighbours along the mesh's own edges: counted, not promised. */
+  /** Free vertices that are extrema, in the same sense, among the neighbours along the mesh's own edges: counted, not promised. */
   meshExtrema: number;
 }
 
@@ -316,7 +309,7 @@ export interface SolverReport {
    * it is harmonic, the fourth or the fifth.
    */
   route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none';
-  /** Of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
+  /** The precision of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
   precision: 'double' | 'single' | 'doubleAfterSingle';
   /** Size of the system; 0 for filters. */
   unknowns: number;
@@ -329,7 +322,7 @@ export interface SolverReport {
   relativeResidual: number;
   /** Corrections of the first solution. */
   refinementSteps: number;
-  /** Of conjugate gradients, those for corrections included, or of a filter; 0 where the factor itself solves. */
+  /** Iterations of conjugate gradients, those for corrections included, or of a filter; 0 where the factor itself solves. */
   iterations: number;
 }
 

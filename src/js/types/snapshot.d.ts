@@ -17,7 +17,7 @@ export { MorseSmoothError } from './index.js';
  */
 export default function init(options?: InitOptions): Promise<void>;
 
-/** Names of colour maps. All but the last three are perceptually uniform; those three diverge from their middle. */
+/** Names of color maps. All but the last three are perceptually uniform; those three diverge from their middle. */
 export type Colormap = 'viridis' | 'cividis' | 'magma' | 'inferno' | 'plasma' | 'coolWarm' | 'blueRed' | 'purpleGreen';
 
 /** From where to look at the mesh. The whole of it is in the picture, whatever the direction. */
@@ -33,13 +33,13 @@ export interface Camera {
  * found before: results of `TriMesh` are taken as they are, with all that is in them.
  */
 export interface DrawOptions {
-  /** Default `"viridis"`. */
+  /** The color map. Default `"viridis"`. */
   colormap?: Colormap;
-  /** The values with the first and the last colour, which values beyond them have, too. Default: least and greatest value. */
+  /** The values with the first and the last color, which values beyond them have, too. Default: least and greatest value. */
   range?: readonly [number, number];
   /** Level sets: at these values, so many inside the range, or lines from `TriMesh.levelSets`. Default `{ count: 15 }`. */
   levels?: Numbers | { count: number } | Pick<LevelSets, 'points' | 'offsets' | 'levels' | 'closed'>;
-  /** One colour between two levels. Default false. */
+  /** One color between two levels. Default false. */
   bands?: boolean;
   /** All critical points, or those from `TriMesh.criticalPoints`. Default true. */
   criticalPoints?: boolean | Pick<CriticalPoints, 'vertices' | 'kinds'>;
@@ -48,18 +48,23 @@ export interface DrawOptions {
    * `TriMesh.morseComplex`. Default false.
    */
   morseComplex?: boolean | { persistence: number } | Pick<MorseComplex, 'vertices' | 'offsets' | 'kinds'>;
+  /**
+   * What NaN among the values means. `"omit"`: there is no value. Triangles with such a corner are grey, and lines and points are those
+   * of the field without them. Default `"error"` (`NonFiniteValue`).
+   */
+  missing?: 'error' | 'omit';
 }
 
-/** See {@link snapshot}. */
+/** What {@link snapshot} takes. */
 export interface SnapshotOptions extends DrawOptions {
-  /** Pixels, 1 to 8192. Default 1200. */
+  /** The width in pixels, 1 to 8192. Default 1200. */
   width?: number;
-  /** Pixels, 1 to 8192. Default 900. */
+  /** The height in pixels, 1 to 8192. Default 900. */
   height?: number;
-  /** A bar that says which colour is which value, where there is room. Default true. */
+  /** A bar that says which color is which value, where there is room. Default true. */
   colorBar?: boolean;
   /**
-   * Written above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others become
+   * The text above the picture, where there is room; as much of it as fits. Letters are those of ASCII and some of Greek; others become
    * boxes. Default: nothing.
    */
   title?: string;
@@ -67,7 +72,7 @@ export interface SnapshotOptions extends DrawOptions {
 }
 
 /**
- * See {@link sheet}. `width` and `height` are those of each picture without its colour bar (default 600 × 560), and the title is above
+ * What {@link sheet} takes. `width` and `height` are those of each picture without its color bar (default 600 × 560), and the title is above
  * them all; the whole sheet has at most 8192 pixels along a side. What was found on one field is not for two
  * (`InapplicableOption`).
  */
@@ -75,16 +80,16 @@ export interface SheetOptions extends SnapshotOptions {
   levels?: Numbers | { count: number };
   criticalPoints?: boolean;
   morseComplex?: boolean | { persistence: number };
-  /** Above each picture. Default `["before", "after", "difference"]`. */
+  /** What is written above each picture. Default `["before", "after", "difference"]`. */
   titles?: readonly [string, string, string];
-  /** Default `"coolWarm"`. */
+  /** The color map of the difference. Default `"coolWarm"`. */
   differenceColormap?: Colormap;
-  /** The difference with the last colour; its negative has the first. Default: the largest that there is. */
+  /** The difference with the last color; its negative has the first. Default: the largest that there is. */
   largestDifference?: number;
 }
 
 /**
- * Draws a field on a mesh: a shaded surface with the colours of the values, level sets, critical points, a colour bar.
+ * Draws a field on a mesh: a shaded surface with the colors of the values, level sets, critical points, a color bar.
  *
  * The positions and triangles are those of `new TriMesh(…)`, the values one for each vertex. Returns a PNG file.
  *
@@ -136,23 +141,25 @@ export interface Surface {
   vertices: Uint32Array;
   /** Which axis points up: z for things that lie flat. */
   up: 'y' | 'z';
-  /** A point p of the mesh is drawn at (p − centre) · scale. */
-  centre: [number, number, number];
+  /** A point p of the mesh is drawn at (p − center) · scale. */
+  center: [number, number, number];
   scale: number;
 }
 
-/** What is drawn on a surface, in one flat list of each kind. Colours of lines and solids are 0xrrggbb, widths pixels. */
+/** What is drawn on a surface, in one flat list of each kind. Colors of lines and solids are 0xrrggbb, widths pixels. */
 export interface DrawList {
   /**
-   * For each corner of the surface its place in `colours`, 0 to 1; below and above, the colour is the first and the last. Linear on
-   * triangles, as the field is.
+   * For each corner of the surface its place in `colors`, 0 to 1; below and above, the color is the first and the last. Linear on
+   * triangles, as the field is. NaN where there is no value: then all of the triangle has the color `gap`.
    */
   shades: Float32Array;
   /**
-   * The colour map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. Between them it is linear; with `bands` it
-   * has steps, and the nearest colour is the right one.
+   * The color map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. Between them it is linear; with `bands` it
+   * has steps, and the nearest color is the right one.
    */
-  colours: Uint8Array;
+  colors: Uint8Array;
+  /** The color of triangles with a corner without a value; null where every corner has one. */
+  gap: number | null;
   /** The values with shade 0 and 1. */
   range: [number, number];
   /** The levels, ascending, each once. */
@@ -161,7 +168,7 @@ export interface DrawList {
   lines: Lines[];
   /** Critical points, one entry for each kind that there is. */
   solids: Solids[];
-  /** Of the radius of solids, for whoever draws fewer of them. */
+  /** The size of solids, for whoever draws fewer of them. */
   size: SolidSize;
   light: Light;
 }
@@ -181,12 +188,12 @@ export interface Lines {
 
 /** How lines are drawn. */
 export interface Stroke {
-  colour: number;
+  color: number;
   width: number;
   /** 0 to 1. */
   opacity: number;
-  /** A line under it, so that it stands out from any colour. */
-  casing: { colour: number; width: number } | null;
+  /** A line under it, so that it stands out from any color. */
+  casing: { color: number; width: number } | null;
 }
 
 /** Instances of one solid. */
@@ -194,10 +201,10 @@ export interface Solids {
   kind: 'minima' | 'saddles' | 'maxima';
   /** One solid, about as large as the unit ball, its axis along y: x, y, z of each corner, unit normals, triangles. */
   shape: { positions: Float32Array; normals: Float32Array; triangles: Uint32Array };
-  colour: number;
+  color: number;
   /** The same solid, enlarged by `scale` and seen from its inside, makes a rim. */
-  rim: { colour: number; scale: number };
-  /** What shines of the colour without light, 0 to 1. */
+  rim: { color: number; scale: number };
+  /** What shines of the color without light, 0 to 1. */
   glow: number;
   /** The vertex of each instance. */
   vertices: Uint32Array;

@@ -1,13 +1,13 @@
 //! Level sets, critical points and lines of the Morse complex: to be found, or as they were found before.
 
-use js_sys::{Float64Array, Int8Array, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Int8Array};
 use wasm_bindgen::{JsCast, JsValue};
 
-use super::record::Record;
-use crate::error::{Error, OptionError, Result};
+use crate::error::{OptionError, OutOfMemory, Result};
 use crate::field::{CriticalKind, CriticalPoint, LevelSets, MorseComplex, Threshold};
 use crate::render::{Glyphs, Levels, Separatrices};
-use crate::wasm::convert::{bytes, copied, floats, ids};
+use crate::wasm::shared::arrays::{bytes, copied, floats, ids};
+use crate::wasm::shared::record::{Record, read};
 
 /// [`Levels`] that own what they hold.
 pub(super) enum LevelInput {
@@ -22,19 +22,24 @@ impl LevelInput {
         if let Some(levels) = value.dyn_ref::<Float64Array>() {
             return Ok(Self::At(floats(levels)?));
         }
-        let record = Record::new("levels", value)?;
-        if record.get("points").is_none() || record.get("count").is_some() {
-            record.only(&[&["count"]])?;
-            let expected = "a list of numbers, { count } or what `TriMesh.levelSets` returns";
-            let count = record.integer("count", "an integer from 0 to 10000")?;
-            return Ok(Self::Count(count.ok_or_else(|| OptionError::invalid("levels", expected))?));
-        }
-        let points = floats(array::<Float64Array>(&record, "points")?)?;
-        let offsets = ids(array::<Uint32Array>(&record, "offsets")?)?;
-        let levels = floats(array::<Float64Array>(&record, "levels")?)?;
-        let closed: Vec<bool> =
-            bytes(array::<Uint8Array>(&record, "closed")?)?.into_iter().map(|closed| closed != 0).collect();
-        Ok(Self::Traced(LevelSets { points, offsets, levels, closed, edges: Vec::new(), parameters: Vec::new() }))
+        read("levels", value, |record| {
+            if !record.holds("points") || record.holds("count") {
+                let expected = "a list of numbers, { count } or what `TriMesh.levelSets` returns";
+                if !record.has("count") {
+                    record.refuse(OptionError::invalid("levels", expected));
+                }
+                return Self::Count(record.integer_of("count", "an integer from 0 to 10000").unwrap_or_default());
+            }
+            record.ignore_others();
+            Self::Traced(LevelSets {
+                points: copy(record, "points", floats),
+                offsets: copy(record, "offsets", ids),
+                levels: copy(record, "levels", floats),
+                closed: copy(record, "closed", bytes).into_iter().map(|closed| closed != 0).collect(),
+                edges: Vec::new(),
+                parameters: Vec::new(),
+            })
+        })
     }
 
     pub(super) fn levels(&self) -> Levels<'_> {
@@ -46,7 +51,7 @@ impl LevelInput {
     }
 }
 
-/// [`Glyphs`], likewise.
+/// [`Glyphs`] that own what they hold.
 pub(super) enum PointInput {
     All(bool),
     These(Vec<CriticalPoint>),
@@ -57,15 +62,16 @@ impl PointInput {
         if let Some(all) = value.as_bool() {
             return Ok(Self::All(all));
         }
-        let record = Record::new("criticalPoints", value)?;
-        let vertices = ids(array::<Uint32Array>(&record, "vertices")?)?;
-        let kinds = kinds(&record)?;
-        if vertices.len() != kinds.len() {
-            return Err(record.invalid("kinds", "one kind for each vertex").into());
-        }
-        // Pictures show neither multiplicities nor what lies on the boundary.
-        let point = |(vertex, kind)| CriticalPoint { vertex, kind, multiplicity: 1, on_boundary: false };
-        Ok(Self::These(vertices.into_iter().zip(kinds).map(point).collect()))
+        read("criticalPoints", value, |record| {
+            record.ignore_others();
+            let (vertices, kinds) = (copy(record, "vertices", ids), kinds(record));
+            if vertices.len() != kinds.len() {
+                record.invalid("kinds", "one kind for each vertex");
+            }
+            // Pictures show neither multiplicities nor what lies on the boundary.
+            let point = |(vertex, kind)| CriticalPoint { vertex, kind, multiplicity: 1, on_boundary: false };
+            Self::These(vertices.into_iter().zip(kinds).map(point).collect())
+        })
     }
 
     pub(super) fn glyphs(&self) -> Glyphs<'_> {
@@ -77,7 +83,7 @@ impl PointInput {
     }
 }
 
-/// [`Separatrices`], likewise.
+/// [`Separatrices`] that own what they hold.
 pub(super) enum ComplexInput {
     None,
     Above(f64),
@@ -89,18 +95,23 @@ impl ComplexInput {
         if let Some(wanted) = value.as_bool() {
             return Ok(if wanted { Self::Above(0.0) } else { Self::None });
         }
-        let record = Record::new("morseComplex", value)?;
-        if record.get("vertices").is_none() || record.get("persistence").is_some() {
-            record.only(&[&["persistence"]])?;
-            let expected = "true, false, { persistence } or what `TriMesh.morseComplex` returns";
-            return Ok(Self::Above(
-                record.number("persistence")?.ok_or_else(|| OptionError::invalid("morseComplex", expected))?,
-            ));
-        }
-        let vertices = ids(array::<Uint32Array>(&record, "vertices")?)?;
-        let offsets = ids(array::<Uint32Array>(&record, "offsets")?)?;
-        let kinds = kinds(&record)?;
-        Ok(Self::Traced(MorseComplex { vertices, offsets, saddles: Vec::new(), extrema: Vec::new(), kinds }))
+        read("morseComplex", value, |record| {
+            if !record.holds("vertices") || record.holds("persistence") {
+                let expected = "true, false, { persistence } or what `TriMesh.morseComplex` returns";
+                if !record.has("persistence") {
+                    record.refuse(OptionError::invalid("morseComplex", expected));
+                }
+                return Self::Above(record.number("persistence").unwrap_or_default());
+            }
+            record.ignore_others();
+            Self::Traced(MorseComplex {
+                vertices: copy(record, "vertices", ids),
+                offsets: copy(record, "offsets", ids),
+                saddles: Vec::new(),
+                extrema: Vec::new(),
+                kinds: kinds(record),
+            })
+        })
     }
 
     pub(super) fn separatrices(&self) -> Separatrices<'_> {
@@ -112,20 +123,26 @@ impl ComplexInput {
     }
 }
 
-/// The typed array of that name.
-fn array<'a, T: JsCast>(record: &'a Record, name: &str) -> Result<&'a T> {
-    let found = record.get(name).and_then(|value| value.dyn_ref::<T>());
-    found.ok_or_else(|| record.invalid(name, "the array of that name which `TriMesh` gives").into())
+/// A copy of the typed array of that name.
+fn copy<A: JsCast + Clone, T>(record: &Record, name: &str, copy: fn(&A) -> Result<Vec<T>, OutOfMemory>) -> Vec<T> {
+    let expected = "the array of that name which `TriMesh` gives";
+    if !record.has(name) {
+        record.invalid(name, expected);
+    }
+    let array = record.object::<A>(name, expected);
+    array.and_then(|array| record.taken(copy(&array))).unwrap_or_default()
 }
 
-fn kinds(record: &Record) -> Result<Vec<CriticalKind>> {
-    let array = array::<Int8Array>(record, "kinds")?;
+fn kinds(record: &Record) -> Vec<CriticalKind> {
     let kind = |sign| match sign {
-        -1 => Ok(CriticalKind::Minimum),
-        0 => Ok(CriticalKind::Saddle),
-        1 => Ok(CriticalKind::Maximum),
-        _ => Err(Error::from(record.invalid("kinds", "−1 for minima, 0 for saddles, 1 for maxima"))),
+        -1 => CriticalKind::Minimum,
+        0 => CriticalKind::Saddle,
+        1 => CriticalKind::Maximum,
+        _ => {
+            record.invalid("kinds", "−1 for minima, 0 for saddles, 1 for maxima");
+            CriticalKind::Saddle
+        }
     };
-    let signs: Vec<i8> = copied(array.length(), |copy| array.copy_to(copy))?;
+    let signs = copy(record, "kinds", |array: &Int8Array| copied(array.length(), |copy| array.copy_to(copy)));
     signs.into_iter().map(kind).collect()
 }

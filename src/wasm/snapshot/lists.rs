@@ -1,105 +1,110 @@
 //! Surfaces and draw lists as plain objects.
 
-use js_sys::{Array, Float32Array, Float64Array, Object, Uint8Array, Uint32Array};
+use js_sys::{Array, Object};
 use wasm_bindgen::JsValue;
 
+use crate::error::OutOfMemory;
 use crate::render::{Axis, DrawList, Lines, Rgb, Role, Solids, Surface};
-use crate::wasm::error::set;
+use crate::wasm::shared::answer::Answer;
 
-/// How many colours a map with steps is tabulated with: a step is then at most a four-thousandth of the range off its level.
+/// How many colors a map with steps is tabulated with: a step is then at most a four-thousandth of the range off its level.
 const STEPPED: usize = 2048;
 
-pub(super) fn surface(surface: &Surface) -> Object {
+pub(super) fn surface(surface: &Surface) -> Result<Object, OutOfMemory> {
     let up = match surface.up {
         Axis::Y => "y",
         Axis::Z => "z",
     };
-    let object = Object::new();
-    set(&object, "positions", &singles(&surface.positions));
-    set(&object, "normals", &singles(&surface.normals));
-    set(&object, "triangles", &Uint32Array::from(surface.triangles.as_flattened()));
-    set(&object, "vertices", &Uint32Array::from(surface.vertices.as_slice()));
-    set(&object, "up", &JsValue::from_str(up));
-    set(&object, "centre", &numbers(&surface.center));
-    number(&object, "scale", 1.0 / surface.size);
-    object
+    let answer = Answer::new();
+    singles(&answer, "positions", &surface.positions);
+    singles(&answer, "normals", &surface.normals);
+    answer.array("triangles", surface.triangles.as_flattened());
+    answer.array("vertices", &surface.vertices);
+    answer.text("up", up);
+    answer.set("center", &numbers(&surface.center));
+    answer.number("scale", 1.0 / surface.size);
+    answer.finish()
 }
 
-pub(super) fn draw_list(list: &DrawList) -> Object {
-    let colours: Vec<Rgb> = if list.step_colors.is_empty() {
+pub(super) fn draw_list(list: &DrawList) -> Result<Object, OutOfMemory> {
+    let colors: Vec<Rgb> = if list.step_colors.is_empty() {
         list.colors.clone()
     } else {
         (0..STEPPED).map(|k| list.color(k as f64 / (STEPPED - 1) as f64)).collect()
     };
-    let size = Object::new();
-    number(&size, "cover", list.size.cover);
-    number(&size, "least", list.size.least);
-    number(&size, "most", list.size.most);
-    let light = Object::new();
-    number(&light, "ambient", list.light.ambient);
-    number(&light, "diffuse", list.light.diffuse);
-    set(&light, "direction", &numbers(&list.light.direction));
-    let object = Object::new();
-    set(&object, "shades", &singles(&list.shades));
-    set(&object, "colours", &Uint8Array::from(colours.as_flattened()));
-    let gap = list.gap.map_or(JsValue::NULL, |[red, green, blue]| u32::from_be_bytes([0, red, green, blue]).into());
-    set(&object, "gap", &gap);
-    set(&object, "range", &numbers(&list.range));
-    set(&object, "levels", &Float64Array::from(list.levels.as_slice()));
-    set(&object, "lines", &list.lines.iter().map(lines).collect::<Array>());
-    set(&object, "solids", &list.solids.iter().map(solids).collect::<Array>());
-    set(&object, "size", &size);
-    set(&object, "light", &light);
-    object
+    let size = Answer::new();
+    size.number("cover", list.size.cover);
+    size.number("least", list.size.least);
+    size.number("most", list.size.most);
+    let light = Answer::new();
+    light.number("ambient", list.light.ambient);
+    light.number("diffuse", list.light.diffuse);
+    light.set("direction", &numbers(&list.light.direction));
+    let answer = Answer::new();
+    singles(&answer, "shades", &list.shades);
+    answer.array("colors", colors.as_flattened());
+    match list.gap {
+        None => answer.set("gap", &JsValue::NULL),
+        Some([red, green, blue]) => answer.number("gap", f64::from(u32::from_be_bytes([0, red, green, blue]))),
+    }
+    answer.set("range", &numbers(&list.range));
+    answer.array("levels", &list.levels);
+    let lines: Array = list.lines.iter().map(lines).collect::<Result<_, _>>()?;
+    let solids: Array = list.solids.iter().map(solids).collect::<Result<_, _>>()?;
+    answer.set("lines", &lines);
+    answer.set("solids", &solids);
+    answer.part("size", size);
+    answer.part("light", light);
+    answer.finish()
 }
 
-fn lines(lines: &Lines) -> Object {
-    let stroke = Object::new();
-    colour(&stroke, lines.stroke.color);
-    number(&stroke, "width", lines.stroke.width);
-    number(&stroke, "opacity", lines.stroke.opacity);
-    let casing = lines.stroke.casing.map_or(JsValue::NULL, |casing| {
-        let object = Object::new();
-        colour(&object, casing.color);
-        number(&object, "width", casing.width);
-        object.into()
-    });
-    set(&stroke, "casing", &casing);
-    let closed: Vec<u8> = lines.closed.iter().map(|&closed| u8::from(closed)).collect();
-    let object = Object::new();
-    kind(&object, lines.role);
-    set(&object, "points", &singles(&lines.points));
-    set(&object, "offsets", &Uint32Array::from(lines.offsets.as_slice()));
-    set(&object, "closed", &Uint8Array::from(closed.as_slice()));
-    set(&object, "stroke", &stroke);
-    object
+fn lines(lines: &Lines) -> Result<Object, OutOfMemory> {
+    let stroke = Answer::new();
+    color(&stroke, lines.stroke.color);
+    stroke.number("width", lines.stroke.width);
+    stroke.number("opacity", lines.stroke.opacity);
+    match lines.stroke.casing {
+        None => stroke.set("casing", &JsValue::NULL),
+        Some(given) => {
+            let casing = Answer::new();
+            color(&casing, given.color);
+            casing.number("width", given.width);
+            stroke.part("casing", casing);
+        }
+    }
+    let answer = Answer::new();
+    kind(&answer, lines.role);
+    singles(&answer, "points", &lines.points);
+    answer.array("offsets", &lines.offsets);
+    answer.column("closed", lines.closed.len(), &|k| u8::from(lines.closed[k]));
+    answer.part("stroke", stroke);
+    answer.finish()
 }
 
-fn solids(solids: &Solids) -> Object {
-    let shape = Object::new();
-    set(&shape, "positions", &singles(solids.shape.positions.as_flattened()));
-    set(&shape, "normals", &singles(solids.shape.normals.as_flattened()));
-    set(&shape, "triangles", &Uint32Array::from(solids.shape.triangles.as_flattened()));
-    let rim = Object::new();
-    colour(&rim, solids.rim.color);
-    number(&rim, "scale", solids.rim.scale);
-    let object = Object::new();
-    kind(&object, solids.role);
-    set(&object, "shape", &shape);
-    colour(&object, solids.color);
-    set(&object, "rim", &rim);
-    number(&object, "glow", solids.glow);
-    set(&object, "vertices", &Uint32Array::from(solids.vertices.as_slice()));
-    set(&object, "places", &singles(solids.places.as_flattened()));
-    set(&object, "axes", &singles(solids.axes.as_flattened()));
-    let both_sides: Vec<u8> = solids.both_sides.iter().map(|&both| u8::from(both)).collect();
-    set(&object, "bothSides", &Uint8Array::from(both_sides.as_slice()));
-    number(&object, "radius", solids.radius);
-    number(&object, "lift", solids.lift);
-    object
+fn solids(solids: &Solids) -> Result<Object, OutOfMemory> {
+    let shape = Answer::new();
+    singles(&shape, "positions", solids.shape.positions.as_flattened());
+    singles(&shape, "normals", solids.shape.normals.as_flattened());
+    shape.array("triangles", solids.shape.triangles.as_flattened());
+    let rim = Answer::new();
+    color(&rim, solids.rim.color);
+    rim.number("scale", solids.rim.scale);
+    let answer = Answer::new();
+    kind(&answer, solids.role);
+    answer.part("shape", shape);
+    color(&answer, solids.color);
+    answer.part("rim", rim);
+    answer.number("glow", solids.glow);
+    answer.array("vertices", &solids.vertices);
+    singles(&answer, "places", solids.places.as_flattened());
+    singles(&answer, "axes", solids.axes.as_flattened());
+    answer.column("bothSides", solids.both_sides.len(), &|k| u8::from(solids.both_sides[k]));
+    answer.number("radius", solids.radius);
+    answer.number("lift", solids.lift);
+    answer.finish()
 }
 
-fn kind(object: &Object, role: Role) {
+fn kind(answer: &Answer, role: Role) {
     let name = match role {
         Role::Levels => "levels",
         Role::Descending => "descending",
@@ -108,16 +113,12 @@ fn kind(object: &Object, role: Role) {
         Role::Saddles => "saddles",
         Role::Maxima => "maxima",
     };
-    set(object, "kind", &JsValue::from_str(name));
+    answer.text("kind", name);
 }
 
-fn colour(object: &Object, [red, green, blue]: Rgb) {
-    let colour = u32::from_be_bytes([0, red, green, blue]);
-    number(object, "colour", f64::from(colour));
-}
-
-fn number(object: &Object, name: &str, value: f64) {
-    set(object, name, &JsValue::from_f64(value));
+fn color(answer: &Answer, [red, green, blue]: Rgb) {
+    let color = u32::from_be_bytes([0, red, green, blue]);
+    answer.number("color", f64::from(color));
 }
 
 /// Few numbers, as an ordinary array.
@@ -126,7 +127,6 @@ fn numbers(values: &[f64]) -> Array {
 }
 
 /// In the precision of graphics cards.
-fn singles(values: &[f64]) -> Float32Array {
-    let singles: Vec<f32> = values.iter().map(|&value| value as f32).collect();
-    Float32Array::from(singles.as_slice())
+fn singles(answer: &Answer, name: &str, values: &[f64]) {
+    answer.column(name, values.len(), &|k| values[k] as f32);
 }

@@ -5,12 +5,13 @@ mod lists;
 mod options;
 mod record;
 
-use js_sys::{Float64Array, Object, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use self::options::{DRAW, Input, PICTURE, SHEET, placed};
-use super::convert::{floats, ids};
-use super::error::Thrown;
+use self::options::{Input, Kind, placed};
+use super::shared::answer::array;
+use super::shared::arrays::{floats, ids};
+use super::shared::error::Thrown;
 use crate::mesh::TriMesh;
 use crate::render::Scene;
 
@@ -29,25 +30,25 @@ impl RawScene {
         Ok(Self { scene: Scene::new(&mesh) })
     }
 
-    pub fn snapshot(&self, values: &Float64Array, options: &JsValue) -> Result<Uint8Array, Thrown> {
-        let input = Input::read(options, &[DRAW, PICTURE])?;
+    pub fn snapshot(&self, values: &Float64Array, options: &JsValue) -> Result<JsValue, Thrown> {
+        let input = Input::read(options, Kind::Picture)?;
         let png = self.scene.snapshot(&floats(values)?, &input.snapshot()).map_err(placed)?;
-        Ok(Uint8Array::from(png.as_slice()))
+        Ok(array(&png)?)
     }
 
-    pub fn sheet(&self, before: &Float64Array, after: &Float64Array, options: &JsValue) -> Result<Uint8Array, Thrown> {
-        let input = Input::read(options, &[DRAW, PICTURE, SHEET])?;
+    pub fn sheet(&self, before: &Float64Array, after: &Float64Array, options: &JsValue) -> Result<JsValue, Thrown> {
+        let input = Input::read(options, Kind::Sheet)?;
         let png = self.scene.sheet(&floats(before)?, &floats(after)?, &input.sheet()).map_err(placed)?;
-        Ok(Uint8Array::from(png.as_slice()))
+        Ok(array(&png)?)
     }
 
-    pub fn surface(&self) -> Object {
-        lists::surface(self.scene.surface())
+    pub fn surface(&self) -> Result<Object, Thrown> {
+        Ok(lists::surface(self.scene.surface())?)
     }
 
     #[wasm_bindgen(js_name = drawList)]
     pub fn draw_list(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let input = Input::read(options, &[DRAW])?;
-        Ok(lists::draw_list(&self.scene.draw_list(&floats(values)?, &input.draw()).map_err(placed)?))
+        let input = Input::read(options, Kind::DrawList)?;
+        Ok(lists::draw_list(&self.scene.draw_list(&floats(values)?, &input.draw()).map_err(placed)?)?)
     }
 }

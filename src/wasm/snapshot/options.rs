@@ -3,19 +3,21 @@
 use wasm_bindgen::JsValue;
 
 use super::ingredients::{ComplexInput, LevelInput, PointInput};
-use super::record::Record;
 use crate::error::{Error, OptionError, Result};
 use crate::field::Missing;
 use crate::render::{Camera, Colormap, DrawOptions, SheetOptions, SnapshotOptions};
+use crate::wasm::shared::record::{Record, read};
 
-/// The names that all three functions take.
-pub(super) const DRAW: &[&str] = &["colormap", "range", "levels", "bands", "criticalPoints", "morseComplex", "missing"];
-/// The names that pictures take.
-pub(super) const PICTURE: &[&str] = &["width", "height", "colorBar", "title", "camera"];
-/// The names that sheets take.
-pub(super) const SHEET: &[&str] = &["titles", "differenceColormap", "largestDifference"];
+/// What is asked for: each has more options than the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd)]
+pub(super) enum Kind {
+    DrawList,
+    Picture,
+    Sheet,
+}
 
 /// What options were read to; owns what the options of `render` borrow.
+#[derive(Default)]
 pub(super) struct Input {
     colormap: Option<Colormap>,
     range: Option<[f64; 2]>,
@@ -35,28 +37,37 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// `known` are the names that the function takes.
-    pub(super) fn read(options: &JsValue, known: &[&[&str]]) -> Result<Self> {
-        let record = Record::new("", options)?;
-        record.only(known)?;
-        let pixels = "an integer from 1 to 8192";
-        Ok(Self {
-            colormap: colormap(&record, "colormap")?,
-            range: record.numbers("range", "two finite numbers, the smaller one first")?,
-            levels: record.get("levels").map(LevelInput::read).transpose()?,
-            bands: record.boolean("bands")?,
-            critical_points: record.get("criticalPoints").map(PointInput::read).transpose()?,
-            morse_complex: record.get("morseComplex").map(ComplexInput::read).transpose()?,
-            missing: missing(&record)?,
-            width: record.integer("width", pixels)?,
-            height: record.integer("height", pixels)?,
-            color_bar: record.boolean("colorBar")?,
-            title: record.text("title")?,
-            camera: record.get("camera").map(camera).transpose()?.unwrap_or_default(),
-            titles: record.texts("titles", "three texts")?,
-            difference_colormap: colormap(&record, "differenceColormap")?,
-            largest_difference: record.number("largestDifference")?,
+    pub(super) fn read(options: &JsValue, kind: Kind) -> Result<Self> {
+        read("", options, |record| {
+            let mut input = Self {
+                colormap: colormap(record, "colormap"),
+                range: record.numbers("range", "two finite numbers, the smaller one first"),
+                levels: record.part("levels", LevelInput::read),
+                bands: record.boolean("bands"),
+                critical_points: record.part("criticalPoints", PointInput::read),
+                morse_complex: record.part("morseComplex", ComplexInput::read),
+                missing: missing(record),
+                ..Self::default()
+            };
+            if kind >= Kind::Picture {
+                input.read_picture(record);
+            }
+            if kind >= Kind::Sheet {
+                input.titles = record.texts("titles", "three texts");
+                input.difference_colormap = colormap(record, "differenceColormap");
+                input.largest_difference = record.number("largestDifference");
+            }
+            input
         })
+    }
+
+    fn read_picture(&mut self, record: &Record) {
+        let pixels = "an integer from 1 to 8192";
+        self.width = record.integer_of("width", pixels);
+        self.height = record.integer_of("height", pixels);
+        self.color_bar = record.boolean("colorBar");
+        self.title = record.text("title");
+        self.camera = record.part("camera", camera).unwrap_or_default();
     }
 
     pub(super) fn draw(&self) -> DrawOptions<'_> {
@@ -99,28 +110,24 @@ impl Input {
     }
 }
 
-fn colormap(record: &Record, option: &str) -> Result<Option<Colormap>, OptionError> {
-    let named = |name: String| {
-        Colormap::named(&name).map_err(|error| match error {
-            OptionError::InvalidOption { expected, .. } => OptionError::invalid(option, &expected),
-            other => other,
-        })
-    };
-    record.text(option)?.map(named).transpose()
+fn colormap(record: &Record, option: &'static str) -> Option<Colormap> {
+    let name = record.text(option)?;
+    record.taken(Colormap::named(&name).map_err(|error| match error {
+        OptionError::InvalidOption { expected, .. } => OptionError::invalid(option, &expected),
+        other => other,
+    }))
 }
 
-fn missing(record: &Record) -> Result<Option<Missing>, OptionError> {
-    let named = |name: String| {
-        Missing::from_name(&name).ok_or_else(|| record.invalid("missing", "one of \"error\", \"omit\", \"fill\""))
-    };
-    record.text("missing")?.map(named).transpose()
+fn missing(record: &Record) -> Option<Missing> {
+    record.read("missing", "one of \"error\", \"omit\", \"fill\"", |value| Missing::from_name(&value.as_string()?))
 }
 
-fn camera(value: &JsValue) -> Result<Camera, OptionError> {
-    let record = Record::new("camera", value)?;
-    record.only(&[&["direction", "up"]])?;
+fn camera(value: &JsValue) -> Result<Camera> {
     let expected = "three finite numbers that are not all zero";
-    Ok(Camera { direction: record.numbers("direction", expected)?, up: record.numbers("up", expected)? })
+    read("camera", value, |record| Camera {
+        direction: record.numbers("direction", expected),
+        up: record.numbers("up", expected),
+    })
 }
 
 /// Says where the option stands that `field` refuses.

@@ -3,6 +3,7 @@ import { MorseSmoothError } from 'morse-smooth';
 import type { Constraints, PersistencePairs, TriMesh } from 'morse-smooth';
 import { short } from '../dom';
 import { thresholdOf } from '../findings';
+import { omitting } from '../gaps';
 import type { Found, Settings, Unsmoothed } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
 
@@ -35,9 +36,10 @@ export function findConstraints(
   values: Float64Array,
   pairs: PersistencePairs,
 ): Found {
-  const features = new Uint32Array(mesh.constrainedVertices(values, featuresOf(settings, values, pairs)));
+  const holes = omitting(values);
+  const features = new Uint32Array(mesh.constrainedVertices(values, featuresOf(settings, values, pairs), holes));
   const all = settings.stars
-    ? mesh.constrainedVertices(values, { from: 'vertices', vertices: features, stars: true })
+    ? mesh.constrainedVertices(values, { from: 'vertices', vertices: features, stars: true }, holes)
     : features;
   return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all: new Uint32Array(all) };
 }

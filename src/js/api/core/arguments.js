@@ -1,0 +1,29 @@
+// Arguments that only the functions of `morse-smooth` take, as its wasm module takes them.
+import { isRecord, toNumbers, toVertices } from '../../runtime/convert.js';
+import { invalidArgument } from '../../runtime/error.js';
+
+/** Vertices of a mesh that has so many, or a rule that finds them. */
+export function toConstraints(value, vertexCount) {
+  if (!isRecord(value)) return toVertices(value, 'constraints', vertexCount);
+  const rule = { ...value };
+  const { vertices } = rule;
+  const areGiven = vertices !== undefined && vertices !== null;
+  if (areGiven) rule.vertices = toVertices(vertices, 'constraints.vertices', vertexCount);
+  return rule;
+}
+
+/** Levels by value, or `{ count }`, or `{ saddles }` of a mesh with so many vertices. */
+export function toLevels(value, vertices) {
+  if (!isRecord(value)) return toNumbers(value, 'levels');
+  const settings = { ...value };
+  const { saddles } = settings;
+  const areGiven = saddles !== undefined && saddles !== null && saddles !== true;
+  if (areGiven) settings.saddles = toVertices(saddles, 'saddles', vertices);
+  return settings;
+}
+
+/** Fields to be written: every one as numbers, under its name. */
+export function toFields(value) {
+  if (!isRecord(value)) throw invalidArgument('fields', 'a plain object of arrays by name');
+  return Object.fromEntries(Object.entries(value).map(([name, field]) => [name, toNumbers(field, `fields.${name}`)]));
+}

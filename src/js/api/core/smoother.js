@@ -1,0 +1,81 @@
+import { toNumbers, toOptions } from '../../runtime/convert.js';
+import { watched } from '../../runtime/progress.js';
+import { toConstraints } from './arguments.js';
+import { handleOf } from './mesh.js';
+import { core } from './module.js';
+
+/** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
+const CONSTRAINED = ['interpolate', 'leastSquares'];
+
+export class Smoother {
+  #handle;
+  #vertexCount;
+  /** What the methods call back where their own options name nothing else. */
+  #onProgress;
+
+  constructor(mesh, options) {
+    // Before anything else: whether there is an instance at all.
+    void core.instance;
+    const source = handleOf(mesh);
+    const given = toOptions(options);
+    this.#onProgress = given?.onProgress;
+    this.#vertexCount = mesh.vertexCount;
+    this.#handle = watched(given, (settings) =>
+      source.use((rawMesh) =>
+        source.instance.create('Smoother', ({ RawSmoother }) => new RawSmoother(rawMesh, settings)),
+      ),
+    );
+  }
+
+  tikhonov(values, options) {
+    return this.#smooth('tikhonov', values, options);
+  }
+
+  interpolate(values, options) {
+    return this.#smooth('interpolate', values, options);
+  }
+
+  leastSquares(values, options) {
+    const given = toOptions(options);
+    if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
+    return this.#smooth('leastSquares', values, given);
+  }
+
+  lowPass(values, options) {
+    return this.#smooth('lowPass', values, options);
+  }
+
+  bilateral(values, options) {
+    return this.#smooth('bilateral', values, options);
+  }
+
+  free() {
+    this.#handle.free();
+  }
+
+  #smooth(method, values, options) {
+    const given = toOptions(options);
+    const numbers = toNumbers(values, 'values');
+    const all =
+      isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    const settings = CONSTRAINED.includes(method) ? withConstraints(all, this.#vertexCount) : all;
+    return watched(settings, (settings) => this.#handle.useAlone((raw) => raw.apply(method, numbers, settings)));
+  }
+}
+
+export function smooth(mesh, values, options) {
+  void core.instance;
+  const source = handleOf(mesh);
+  const numbers = toNumbers(values, 'values');
+  const given = withConstraints(toOptions(options), mesh.vertexCount);
+  return watched(given, (settings) => source.use((rawMesh, glue) => glue.smooth(rawMesh, numbers, settings)));
+}
+
+/** Options whose constraints are as the wasm module takes them. */
+function withConstraints(settings, vertexCount) {
+  const constraints = settings?.constraints;
+  if (isGiven(constraints)) settings.constraints = toConstraints(constraints, vertexCount);
+  return settings;
+}
+
+const isGiven = (value) => value !== undefined && value !== null;

@@ -1,0 +1,78 @@
+import { MorseSmoothError } from './error.js';
+
+/**
+ * Owns one object in the memory of an instance and knows whether it was freed and whether a call is running on it.
+ *
+ * A call can be running when another begins: `onProgress` is user code, called from within.
+ */
+export class Handle {
+  #kind;
+  #instance;
+  #raw;
+  #running = 0;
+
+  constructor(kind, instance, raw) {
+    this.#kind = kind;
+    this.#instance = instance;
+    this.#raw = raw;
+  }
+
+  /** The instance that the object lives in. */
+  get instance() {
+    return this.#instance;
+  }
+
+  /** Reads something small: `action(raw)`. */
+  read(action) {
+    return this.#run('call', action);
+  }
+
+  /** Calls `action(raw, glue)`; other calls may run meanwhile. */
+  use(action) {
+    return this.#run('work', action);
+  }
+
+  /** Calls `action(raw, glue)`, which changes the object: no other call may run meanwhile. */
+  useAlone(action) {
+    this.#refuseWhileRunning('used again');
+    return this.use(action);
+  }
+
+  /** Gives the memory back. An object of an instance that was lost has none. */
+  free() {
+    this.#refuseWhileRunning('freed');
+    const raw = this.#raw;
+    this.#raw = null;
+    if (raw !== null && !this.#instance.isLost) this.#instance.call(() => raw.free());
+  }
+
+  #run(how, action) {
+    if (this.#raw === null) {
+      const object = this.#kind;
+      throw new MorseSmoothError('UseAfterFree', `this ${object} was freed`, { object });
+    }
+    this.#running++;
+    try {
+      return this.#instance[how]((glue) => action(this.#raw, glue));
+    } finally {
+      this.#running--;
+    }
+  }
+
+  #refuseWhileRunning(what) {
+    if (this.#running === 0 || this.#instance.isLost) return;
+    const object = this.#kind;
+    throw new MorseSmoothError('Busy', `this ${object} cannot be ${what} while a call on it is running`, { object });
+  }
+}
+
+/** Lets an object be used as in `using file = readMesh(…)`, where the language has it: `free` is called at the end. */
+export function disposable(object, free) {
+  if (!Symbol.dispose) return object;
+  return Object.defineProperty(object, Symbol.dispose, { value: free, configurable: true, writable: true });
+}
+
+/** The same for all objects of these classes: `using mesh = new TriMesh(…)`. */
+export function makeDisposable(...classes) {
+  for (const { prototype } of classes) disposable(prototype, prototype.free);
+}

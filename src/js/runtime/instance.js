@@ -1,0 +1,72 @@
+import { MorseSmoothError, internalError, reported } from './error.js';
+import { Handle } from './handles.js';
+
+/** A running instance of a WebAssembly module: its memory, and the functions of the glue that work on it. */
+export class Instance {
+  #glue;
+  #entry;
+  #isLost = false;
+
+  constructor(glue, entry) {
+    this.#glue = glue;
+    this.#entry = entry;
+  }
+
+  get isLost() {
+    return this.#isLost;
+  }
+
+  /**
+   * Makes a call into the module, `action(glue)`, and turns whatever it throws into a `MorseSmoothError`.
+   *
+   * The module reports failures as plain objects. Anything else is a defect of ours or of what runs the module: a trap, say, or a
+   * stack that is too small. It leaves memory in disorder, so that the instance is lost.
+   */
+  call(action) {
+    this.#refuseIfLost();
+    let result;
+    try {
+      result = action(this.#glue);
+    } catch (thrown) {
+      if (thrown instanceof MorseSmoothError) throw thrown;
+      throw reported(thrown) ?? this.#lose(thrown);
+    }
+    // It may be lost to a call from within a callback.
+    this.#refuseIfLost();
+    return result;
+  }
+
+  /** Calls like `call`, for what takes memory: makes sure beforehand that there is enough for small things, such as errors. */
+  work(action) {
+    return this.call((glue) => {
+      const bytes = glue.setAside();
+      if (bytes === 0) return action(glue);
+      const message = `${bytes} bytes of memory are needed, more than can be had here`;
+      throw new MorseSmoothError('OutOfMemory', message, { bytes });
+    });
+  }
+
+  /** An object in the module's memory that `make(glue)` returns. */
+  create(kind, make) {
+    return new Handle(kind, this, this.work(make));
+  }
+
+  /** What is thrown where a lost instance is used. */
+  lostError() {
+    return new MorseSmoothError(
+      'InstanceLost',
+      `an earlier call failed inside the WebAssembly module of ${this.#entry} and left its memory in disorder; ` +
+        'call `await init()` again, and make the objects anew',
+    );
+  }
+
+  #refuseIfLost() {
+    if (this.#isLost) throw this.lostError();
+  }
+
+  #lose(thrown) {
+    this.#isLost = true;
+    this.#glue.abandon();
+    return internalError(thrown);
+  }
+}

@@ -1,0 +1,181 @@
+//! The options of smoothing.
+
+use js_sys::Float64Array;
+
+use super::Constraining;
+use crate::error::OptionError;
+use crate::field::Missing;
+use crate::smooth::{
+    BilateralOptions, Constraints, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, MethodName, Metric,
+    Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
+};
+use crate::support::named::named;
+use crate::wasm::shared::arrays::floats;
+use crate::wasm::shared::record::Record;
+
+/// What a smoother is made with.
+pub(in crate::wasm::core) fn smoother(record: &Record) -> SmootherOptions {
+    let defaults = SmootherOptions::default();
+    SmootherOptions {
+        weights: record.choice("weights").unwrap_or(defaults.weights),
+        operator: record.choice("operator").unwrap_or(defaults.operator),
+        solver: record.choice("solver").unwrap_or(defaults.solver),
+        precision: record.choice("precision").unwrap_or(defaults.precision),
+        bounds: record.boolean("bounds").unwrap_or(defaults.bounds),
+    }
+}
+
+/// The methods of `smooth`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::wasm::core) enum ShortMethod {
+    Tikhonov,
+    Interpolate,
+    LeastSquares,
+}
+
+named! { ShortMethod { Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares" } }
+
+impl ShortMethod {
+    pub(in crate::wasm::core) fn method(self) -> MethodName {
+        match self {
+            Self::Tikhonov => MethodName::Tikhonov,
+            Self::Interpolate => MethodName::Interpolate,
+            Self::LeastSquares => MethodName::LeastSquares,
+        }
+    }
+}
+
+/// A method with its options; owns what the options of `smooth` borrow.
+pub(in crate::wasm::core) enum Smoothing {
+    Tikhonov(TikhonovOptions),
+    Interpolate(Constraining, InterpolateOptions<'static>),
+    LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>),
+    LowPass(LowPassOptions),
+    Bilateral(BilateralOptions),
+}
+
+impl Smoothing {
+    /// `operator` is the smoother's: not every option goes with every operator.
+    pub(in crate::wasm::core) fn read(record: &Record, method: MethodName, operator: Operator) -> Self {
+        let channels = record.integer("channels").map_or(1, |channels| channels as usize);
+        let missing = record.choice("missing").unwrap_or_default();
+        match method {
+            MethodName::Tikhonov => Self::Tikhonov(TikhonovOptions { channels, missing, ..tikhonov(record, operator) }),
+            MethodName::Interpolate => {
+                let (constraining, constraints) = constraints(record);
+                let energy = record.choice("energy").unwrap_or_default();
+                Self::Interpolate(constraining, InterpolateOptions { constraints, energy, channels, missing })
+            }
+            MethodName::LeastSquares => {
+                let (constraining, constraints) = constraints(record);
+                let options =
+                    LeastSquaresOptions { constraints, epsilon: epsilon(record), weights: None, channels, missing };
+                Self::LeastSquares(constraining, None, options)
+            }
+            MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
+            MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
+        }
+    }
+
+    /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
+    pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
+        if let Self::LeastSquares(_, weights, _) = &mut self {
+            let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
+            *weights = array.and_then(|array| record.taken(floats(&array)));
+        }
+        self
+    }
+
+    pub(in crate::wasm::core) fn method(&self) -> Method<'_> {
+        match self {
+            Self::Tikhonov(options) => Method::Tikhonov(*options),
+            Self::Interpolate(constraining, options) => {
+                let constraints = constraining.constraints(options.constraints.unconstrained);
+                Method::Interpolate(InterpolateOptions { constraints, ..*options })
+            }
+            Self::LeastSquares(constraining, weights, options) => {
+                let constraints = constraining.constraints(options.constraints.unconstrained);
+                Method::LeastSquares(LeastSquaresOptions { constraints, weights: weights.as_deref(), ..*options })
+            }
+            Self::LowPass(options) => Method::LowPass(*options),
+            Self::Bilateral(options) => Method::Bilateral(*options),
+        }
+    }
+}
+
+/// What is constrained, and what becomes of components without a constraint.
+fn constraints(record: &Record) -> (Constraining, Constraints<'static>) {
+    if !record.has("constraints") {
+        record.invalid("constraints", Constraining::EXPECTED);
+    }
+    let constraining = record.part("constraints", Constraining::read).unwrap_or_default();
+    let unconstrained = record.choice("unconstrained").unwrap_or_default();
+    (constraining, Constraints { unconstrained, ..Constraints::default() })
+}
+
+fn epsilon(record: &Record) -> f64 {
+    if record.get("epsilon").and_then(|epsilon| epsilon.as_string()).as_deref() == Some("auto") {
+        record.refuse(OptionError::UnsupportedOption { option: "epsilon".to_owned(), value: "auto".to_owned() });
+    }
+    record.given("epsilon", "a positive finite number, and it has no default")
+}
+
+fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
+    let epsilon = match record.number("cutoffWavelength") {
+        None => epsilon(record),
+        Some(wavelength) => {
+            if operator == Operator::Paper {
+                record.inapplicable("cutoffWavelength", "only the operator `fem` knows lengths");
+            }
+            if record.has("epsilon") {
+                record.inapplicable("epsilon", "`cutoffWavelength` says the same");
+            }
+            record.taken(epsilon_for_wavelength(wavelength)).unwrap_or_default()
+        }
+    };
+    let metric = record.choice("metric").unwrap_or_default();
+    let mass_scale = record.choice("massScale").unwrap_or_default();
+    if metric == Metric::Identity && record.has("massScale") {
+        record.inapplicable("massScale", "the metric `identity` has no mass matrix");
+    }
+    for option in ["metric", "massScale"] {
+        if operator == Operator::Fem && record.has(option) {
+            record.inapplicable(option, "the operator `fem` has its own mass matrix");
+        }
+    }
+    // Without gaps that are filled in no component is without values.
+    let fills = record.choice("missing") == Some(Missing::Fill);
+    let unconstrained = if fills { record.choice("unconstrained") } else { None };
+    TikhonovOptions {
+        epsilon,
+        metric,
+        mass_scale,
+        unconstrained: unconstrained.unwrap_or_default(),
+        ..TikhonovOptions::default()
+    }
+}
+
+fn iterations(record: &Record) -> usize {
+    record.given_integer("iterations", "an integer that is not negative, and it has no default")
+}
+
+fn low_pass(record: &Record) -> LowPassOptions {
+    let defaults = LowPassOptions::default();
+    LowPassOptions {
+        iterations: iterations(record),
+        lambda: record.number("lambda").unwrap_or(defaults.lambda),
+        mu: record.number("mu").unwrap_or(defaults.mu),
+        ..defaults
+    }
+}
+
+fn bilateral(record: &Record) -> BilateralOptions {
+    let given = |option: &str| record.given(option, "a positive finite number, and it has no default");
+    BilateralOptions {
+        iterations: iterations(record),
+        radius: given("radius"),
+        sigma_distance: given("sigmaDistance"),
+        sigma_value: given("sigmaValue"),
+        ..BilateralOptions::default()
+    }
+}

@@ -1,0 +1,75 @@
+//! The class behind `Smoother`, and `smooth`.
+
+use js_sys::{Array, Float64Array, Object};
+use wasm_bindgen::prelude::*;
+
+use super::mesh::RawTriMesh;
+use super::options::{ShortMethod, Smoothing, from_rule, smoother};
+use super::reports;
+use super::watching::Watching;
+use crate::error::{OptionError, Result as Outcome};
+use crate::smooth::{MethodName, Smoothed, Smoother};
+use crate::wasm::shared::answer::Answer;
+use crate::wasm::shared::arrays::floats;
+use crate::wasm::shared::error::Thrown;
+use crate::wasm::shared::record::read;
+
+/// A smoother in wasm memory.
+#[wasm_bindgen]
+pub struct RawSmoother {
+    smoother: Smoother,
+}
+
+#[wasm_bindgen]
+#[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
+impl RawSmoother {
+    #[wasm_bindgen(constructor)]
+    pub fn new(mesh: &RawTriMesh, options: &JsValue) -> Result<Self, Thrown> {
+        let (options, _watching) = read("", options, |record| (smoother(record), Watching::read(record)))?;
+        Ok(Self { smoother: Smoother::new(mesh.mesh(), options)? })
+    }
+
+    /// Smooths by the method of that name.
+    pub fn apply(&mut self, method: &str, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+        let method = MethodName::from_name(method).ok_or_else(|| OptionError::invalid("method", "a method's name"))?;
+        let operator = self.smoother.options().operator;
+        let (smoothing, watching) = read("", options, |record| {
+            (Smoothing::read(record, method, operator).with_weights(record), Watching::read(record))
+        })?;
+        Ok(run(&mut self.smoother, &smoothing, &watching, values)?)
+    }
+}
+
+/// The short way: one smoother, one field.
+#[wasm_bindgen]
+pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
+    let (options, smoothing, watching) = read("", options, |record| {
+        let options = smoother(record);
+        let default = if record.holds("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
+        let method = record.choice("method").unwrap_or(default);
+        let smoothing = Smoothing::read(record, method.method(), options.operator);
+        record.foreign("the method does not have it", &|record| {
+            for other in ShortMethod::ALL {
+                Smoothing::read(record, other.method(), options.operator);
+            }
+        });
+        (options, smoothing, Watching::read(record))
+    })?;
+    let mut smoother = Smoother::new(mesh.mesh(), options)?;
+    Ok(run(&mut smoother, &smoothing, &watching, values)?)
+}
+
+fn run(smoother: &mut Smoother, smoothing: &Smoothing, watching: &Watching, values: &Float64Array) -> Outcome<Object> {
+    let values = floats(values)?;
+    let smoothed = watching.run(|watch| smoother.apply(&values, &smoothing.method(), watch)).map_err(from_rule)?;
+    answer(&smoothed)
+}
+
+fn answer(smoothed: &Smoothed) -> Outcome<Object> {
+    let reports: Array = smoothed.reports.iter().map(reports::smoothing).collect();
+    let answer = Answer::new();
+    answer.array("values", &smoothed.values);
+    answer.set("report", &reports.get(0));
+    answer.set("reports", &reports);
+    Ok(answer.finish()?)
+}
