@@ -104,7 +104,8 @@ impl Mesh<'_> {
 
     /// Bytes of a binary file, up to its header.
     fn binary_size(&self) -> usize {
-        let numbers = self.fields.iter().fold(self.positions.len(), |sum, (_, values)| sum.saturating_add(values.len()));
+        let numbers =
+            self.fields.iter().fold(self.positions.len(), |sum, (_, values)| sum.saturating_add(values.len()));
         // Up to four bytes say how many corners a triangle has.
         numbers.saturating_mul(8).saturating_add(self.triangle_count().saturating_mul(16)).saturating_add(HEADER)
     }

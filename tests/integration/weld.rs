@@ -163,7 +163,8 @@ fn a_sphere_with_seam_and_poles_closes() {
         assert_eq!((topology.closed, topology.orientable, topology.genus), (true, true, Some(0)));
 
         // A field that is continuous on the sphere differs by rounding at the seam.
-        let height_of = |positions: &[f64]| -> Vec<f64> { positions.chunks_exact(3).map(|p| p[0] + 2.0 * p[2]).collect() };
+        let height_of =
+            |positions: &[f64]| -> Vec<f64> { positions.chunks_exact(3).map(|p| p[0] + 2.0 * p[2]).collect() };
         let carried = welded.field(&height_of(&positions)).unwrap();
         assert!(carried.disagreeing.is_empty());
         for (found, expected) in carried.values.iter().zip(height_of(mesh.positions())) {

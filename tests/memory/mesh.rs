@@ -24,8 +24,7 @@ pub fn every_kind() -> Vec<Arrays> {
         let soup: Vec<f64> = triangles.iter().flat_map(|&v| positions[3 * v as usize..][..3].to_vec()).collect();
         let ids = (0..soup.len() as u32 / 3).collect();
         let mut random = Random::new(u64::from(size));
-        let holes: Vec<u32> =
-            triangles.chunks_exact(3).filter(|_| random.uniform() < 0.7).flatten().copied().collect();
+        let holes: Vec<u32> = triangles.chunks_exact(3).filter(|_| random.uniform() < 0.7).flatten().copied().collect();
         let isolated = [positions.clone(), positions.clone(), positions.clone()].concat();
         let repeated = [triangles.clone(), triangles.clone(), vec![0; triangles.len()]].concat();
         add("a torus", positions.clone(), triangles.clone());
@@ -41,15 +40,20 @@ pub fn every_kind() -> Vec<Arrays> {
         let n = size * size;
         for hub in [0, n] {
             let rim = |i: u32| if hub == 0 { 1 + i % n } else { i % n };
-            let positions: Vec<f64> =
-                (0..=n).flat_map(|v| if v == hub { [0.0, 0.0, 1.0] } else { [f64::from(v), f64::from(v * v % 101), 0.0] }).collect();
+            let positions: Vec<f64> = (0..=n)
+                .flat_map(|v| if v == hub { [0.0, 0.0, 1.0] } else { [f64::from(v), f64::from(v * v % 101), 0.0] })
+                .collect();
             add("a wheel", positions, (0..n).flat_map(|i| [hub, rim(i), rim(i + 1)]).collect());
         }
         // A book: every triangle shares one edge.
         let pages = (0..n).flat_map(|v| [0.0, f64::from(v), f64::from(v * v % 101)]).collect();
         add("a book", pages, (2..n).flat_map(|v| [0, 1, v]).collect());
         let islands = (0..n).flat_map(|v| [f64::from(v), f64::from(v % 3), f64::from(v % 5)]).collect();
-        add("islands", islands, (0..n / 4).flat_map(|i| [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2].map(|v| 4 * i + v)).collect());
+        add(
+            "islands",
+            islands,
+            (0..n / 4).flat_map(|i| [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2].map(|v| 4 * i + v)).collect(),
+        );
     }
     all
 }
@@ -60,7 +64,9 @@ fn meshes() {
         let mesh = check(&format!("a mesh of {name}"), 1.6, || TriMesh::new(positions, triangles).unwrap());
         check(&format!("the topology of {name}"), 1.5, || mesh.topology().unwrap());
         for share in [2, 5] {
-            check(&format!("a part of {name}"), 2.0, || mesh.submesh(&|v| v % 1000 < 200 * share).map(|part| part.vertices.len()));
+            check(&format!("a part of {name}"), 2.0, || {
+                mesh.submesh(&|v| v % 1000 < 200 * share).map(|part| part.vertices.len())
+            });
         }
     }
     let soup = vec![0.5; 90_000];

@@ -11,7 +11,9 @@ fn operators() {
     for Arrays { name, positions, triangles } in every_kind() {
         let mesh = TriMesh::new(positions, triangles).unwrap();
         for &weights in LaplacianWeights::ALL {
-            check(&format!("the Laplacian {} of {name}", weights.name()), 1.3, || laplacian(&mesh, weights).map(drop).ok());
+            check(&format!("the Laplacian {} of {name}", weights.name()), 1.3, || {
+                laplacian(&mesh, weights).map(drop).ok()
+            });
         }
         for &kind in MassKind::ALL {
             for &scale in MassScale::ALL {
