@@ -45,6 +45,7 @@ mod simplify;
 mod smooth;
 mod smooth_iterative;
 mod solve;
+mod solve_watch;
 mod support;
 #[cfg(feature = "render")]
 mod ticks;
