@@ -25,7 +25,7 @@ const DEPTH: usize = 2;
 const PASSES: usize = 2;
 
 /// What is kept for every unknown besides the graphs.
-const BYTES_PER_UNKNOWN: u64 = 125;
+const BYTES_PER_UNKNOWN: u64 = 140;
 
 /// An unknown of a part that is labelled, grouped and handed down.
 const TICKS_PER_MEMBER: u64 = 40;
