@@ -57,3 +57,22 @@ pub(crate) fn filled<T: Clone>(element: T, count: usize) -> Result<Vec<T>, OutOf
     vector.resize(count, element);
     Ok(vector)
 }
+
+/// Makes room for `extra` more elements, by doubling, so that pushing them takes no memory.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes of the vector that cannot be had.
+#[inline]
+pub(crate) fn make_room<T>(vector: &mut Vec<T>, extra: usize) -> Result<(), OutOfMemory> {
+    if vector.capacity() - vector.len() >= extra { Ok(()) } else { grow(vector, extra) }
+}
+
+#[cold]
+#[inline(never)]
+fn grow<T>(vector: &mut Vec<T>, extra: usize) -> Result<(), OutOfMemory> {
+    let capacity = (vector.len() + extra).max(2 * vector.capacity()).max(64);
+    // The old elements are there beside the new ones until they have moved.
+    let bytes = (capacity as u64).saturating_mul(size_of::<T>() as u64);
+    ensure(bytes)?;
+    vector.try_reserve_exact(capacity - vector.len()).map_err(|_| OutOfMemory { bytes })
+}
