@@ -309,26 +309,26 @@ describe('files', () => {
     expect(sum(await page.counts('after'))).toBeGreaterThan(0);
   });
 
-  test('a mesh whose first field has a gap opens with its next one, and says why', async () => {
+  test('a mesh whose first field has an infinite value opens with its next one, and says why', async () => {
     await openTorus();
-    const vertices = ['0 0 0 nan 1', '1 0 0 2 5', '0 1 0 3 2', '0 0 1 4 4'];
-    const properties = ['float x', 'float y', 'float z', 'double gap', 'double whole'].map(
+    const vertices = ['0 0 0 inf 1', '1 0 0 2 5', '0 1 0 3 2', '0 0 1 4 4'];
+    const properties = ['float x', 'float y', 'float z', 'double endless', 'double whole'].map(
       (text) => `property ${text}`,
     );
     const faces = ['3 0 2 1', '3 0 1 3', '3 0 3 2', '3 1 2 3'];
     const header = ['ply', 'format ascii 1.0', 'element vertex 4', ...properties, 'element face 4'];
     const lines = [...header, 'property list uchar int vertex_indices', 'end_header', ...vertices, ...faces, ''];
-    expect(await page.after(() => page.drop('gap.ply', Buffer.from(lines.join('\n'))))).toBe('error');
+    expect(await page.after(() => page.drop('endless.ply', Buffer.from(lines.join('\n'))))).toBe('error');
     expect(await page.text('notice-code')).toBe('NonFiniteValue');
     expect(await page.at('field').inputValue()).toBe('file:whole');
     expect(await page.counts('before')).toEqual([1, 1, 0]);
     expect(await page.counts('after')).toEqual([1, 1, 0]);
   });
 
-  test('a field with a gap is refused, and the choice goes back', async () => {
+  test('a field with an infinite value is refused, and the choice goes back', async () => {
     await openTorus();
-    const gap = Array.from({ length: 4301 }, (_, k) => (k === 7 ? 'nan' : k)).join('\n');
-    expect(await page.after(() => page.drop('gap.txt', Buffer.from(gap)))).toBe('error');
+    const endless = Array.from({ length: 4301 }, (_, k) => (k === 7 ? 'inf' : k)).join('\n');
+    expect(await page.after(() => page.drop('endless.txt', Buffer.from(endless)))).toBe('error');
     expect(await page.text('notice-code')).toMatch(/NonFiniteValue|InvalidNumber/);
     expect(await page.at('field').locator('option:checked').textContent()).toBe('noisy');
   });

@@ -24,7 +24,7 @@ function grid(columns, rows, place, closed = { columns: false, rows: false }) {
 
 /** PLY, with the fields as further properties of the vertices. */
 function write(name, { points, triangles }, fields) {
-  const text = (x) => String(Number(x.toFixed(4)) || 0);
+  const text = (x) => (Number.isNaN(x) ? 'nan' : String(Number(x.toFixed(4)) || 0));
   const names = ['x', 'y', 'z', ...Object.keys(fields)];
   const columns = [0, 1, 2].map((axis) => points.map((p) => p[axis]));
   columns.push(...Object.values(fields).map((field) => points.map(field)));
@@ -72,7 +72,10 @@ const waves = grid(25, 19, (u, v) => {
   return [x, y, 0.22 * sin(2.4 * x) * cos(2.2 * y)];
 });
 const smooth = ([x, y]) => sin(2.4 * x) * cos(2.2 * y) + 0.15 * x;
-write('waves', waves, { before: (p) => smooth(p) + 0.4 * sin(5 * p[0] + 1) * sin(4.3 * p[1]), after: smooth });
+const rough = (p) => smooth(p) + 0.4 * sin(5 * p[0] + 1) * sin(4.3 * p[1]);
+/** Without values in a disc inside, and beyond a line that cuts a corner off. */
+const gaps = ([x, y]) => ((x - 0.3) ** 2 + (y + 0.35) ** 2 < 0.2 || y - x > 2.2 ? NaN : smooth([x, y]));
+write('waves', waves, { before: rough, after: smooth, gaps });
 
 /** Four pages that meet in one line: its edges belong to four triangles each. */
 const pages = { points: [], triangles: [] };

@@ -46,6 +46,8 @@ mod saddle_levels;
 mod simplify;
 mod smooth;
 mod smooth_iterative;
+mod smooth_missing;
+mod smooth_stopped;
 mod solve;
 mod stopping;
 mod support;

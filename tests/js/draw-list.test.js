@@ -138,6 +138,25 @@ describe('a draw list', () => {
     expect(new Set(scene.drawList(new Float32Array(field.length).fill(3)).shades)).toEqual(new Set([0.5]));
   });
 
+  it('has no shade where there is no value', () => {
+    expect(list().gap).toBe(null);
+    expect(list({ missing: 'omit' })).toEqual(list());
+    const missing = [5, 17, 40];
+    const values = Float64Array.from(field, (value, v) => (missing.includes(v) ? NaN : value));
+    const { shades, gap, range, solids, lines } = scene.drawList(values, { missing: 'omit', levels: [0.2] });
+    expect(surface.vertices.filter((_, corner) => Number.isNaN(shades[corner]))).toEqual(Uint32Array.from(missing));
+    expect(gap).toBe(0xaaaaaa);
+    // All else is that of the part that has values.
+    const { mesh: part, vertices } = mesh.withoutMissing(values);
+    const known = Float64Array.from(vertices, (v) => values[v]);
+    const found = part.criticalPoints(known);
+    const drawn = solids.flatMap((solid) => [...solid.vertices]).sort((a, b) => a - b);
+    expect(drawn).toEqual([...found.vertices].map((v) => vertices[v]).sort((a, b) => a - b));
+    expect(range).toEqual([Math.min(...known), Math.max(...known)]);
+    expect(lines[0].points).toHaveLength(part.levelSets(known, [0.2]).points.length);
+    part.free();
+  });
+
   it('has the colors of its map', () => {
     const ends = ({ colors }) => [...colors.subarray(0, 3), ...colors.subarray(-3)];
     expect(ends(list())).toEqual([68, 1, 84, 253, 231, 37]);

@@ -10,6 +10,7 @@ mod field;
 mod io;
 mod mesh;
 mod operators;
+mod smooth;
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::Cell;

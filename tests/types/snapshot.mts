@@ -97,8 +97,9 @@ same<[typeof center, typeof scale], [[number, number, number], number]>(true);
 
 const drawing: api.DrawOptions = { levels: [1, 2], bands: true, colormap: names[0], range: [0, 1] };
 const list: api.DrawList = scene.drawList(heat, drawing);
-const { shades, colors, range, levels, lines, solids, size, light } = list;
+const { shades, colors, gap, range, levels, lines, solids, size, light } = list;
 same<typeof levels, Float64Array>(true);
+same<typeof gap, number | null>(true);
 same<[typeof shades, typeof colors, typeof range], [Float32Array, Uint8Array, [number, number]]>(true);
 same<[typeof lines, typeof solids], [api.Lines[], api.Solids[]]>(true);
 same<[typeof size, typeof light], [api.SolidSize, api.Light]>(true);

@@ -1,10 +1,10 @@
 /** Colors for basins, so that neighbours differ and a basin has the same color on both sides of the page. */
 
 /** How many colors there are; colormap.ts has them. */
-export const BASIN_COLOURS = 12;
+export const BASIN_COLORS = 12;
 /** Of a vertex in no triangle. */
 const NOWHERE = 0xffffffff;
-export const NO_COLOUR = 255;
+export const NO_COLOR = 255;
 
 export interface BasinColors {
   /** For each vertex the number of its color. */
@@ -36,7 +36,7 @@ export function colorBasins(
     join(c, a);
   }
   const byExtremum = new Map<number, number>();
-  const uses = new Array<number>(BASIN_COLOURS).fill(0);
+  const uses = new Array<number>(BASIN_COLORS).fill(0);
   const order = [...neighbours].sort(([a, of], [b, other]) => other.size - of.size || a - b);
   for (const [extremum, around] of order) {
     const taken = new Set([...around].map((other) => byExtremum.get(other)));
@@ -50,5 +50,5 @@ export function colorBasins(
     byExtremum.set(extremum, color);
     uses[color]! += 1;
   }
-  return { colors: Uint8Array.from(labels, (label) => byExtremum.get(label) ?? NO_COLOUR), byExtremum };
+  return { colors: Uint8Array.from(labels, (label) => byExtremum.get(label) ?? NO_COLOR), byExtremum };
 }

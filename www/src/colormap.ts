@@ -1,6 +1,7 @@
 /** Textures of a draw list's colors, and the colors of basins. */
 import { BufferAttribute, Color, DataTexture, LinearFilter, NearestFilter, SRGBColorSpace } from 'three';
-import { BASIN_COLOURS } from './basins';
+import type { Material } from 'three';
+import { BASIN_COLORS } from './basins';
 
 /** `stepped`: colors with steps between them, which must not be blurred. */
 export function textureOf(colors: Uint8Array, stepped: boolean): DataTexture {
@@ -17,14 +18,39 @@ export function textureOf(colors: Uint8Array, stepped: boolean): DataTexture {
   return texture;
 }
 
-/** Texture coordinates that look shades up. The color is looked up for every pixel, not mixed between the corners' colors. */
+/** The second texture coordinate, where there is a value and where there is none: mixed with this, every place of a triangle is far off. */
+const VALUE = 0.5;
+const NO_VALUE = 1e6;
+
+/**
+ * Texture coordinates that look shades up. The color is looked up for every pixel, not mixed between the corners' colors. Corners
+ * without a shade mark their triangles for {@link withGaps}.
+ */
 export function along(shades: Float32Array): BufferAttribute {
   const uv = new Float32Array(2 * shades.length);
   for (let i = 0; i < shades.length; i++) {
-    uv[2 * i] = shades[i]!;
-    uv[2 * i + 1] = 0.5;
+    const shade = shades[i]!;
+    uv[2 * i] = Number.isNaN(shade) ? 0 : shade;
+    uv[2 * i + 1] = Number.isNaN(shade) ? NO_VALUE : VALUE;
   }
   return new BufferAttribute(uv, 2);
+}
+
+/** Makes a material draw triangles with a marked corner in the color of gaps, as a whole: see {@link along}, {@link basinColors}. */
+export function withGaps<M extends Material>(material: M, gap: Color): M {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms['gap'] = { value: gap };
+    shader.fragmentShader = shader.fragmentShader.replace('void main() {', 'uniform vec3 gap;\nvoid main() {').replace(
+      '#include <color_fragment>',
+      `#include <color_fragment>
+        #ifdef USE_MAP
+          if (vMapUv.y > 1.0) diffuseColor.rgb = gap;
+        #elif defined(USE_COLOR)
+          if (vColor.r < 0.0) diffuseColor.rgb = gap;
+        #endif`,
+    );
+  };
+  return material;
 }
 
 /**
@@ -44,12 +70,13 @@ const BASINS = [
   '#fab2b0',
   '#dbb5f8',
   '#51bcce',
-] as const satisfies { length: typeof BASIN_COLOURS };
-const NOWHERE = '#e8ecf3';
+] as const satisfies { length: typeof BASIN_COLORS };
+/** A color that there is not: a corner in no basin has no value. */
+const NOWHERE = [-NO_VALUE, 0, 0] as const;
 
 /** Linear red, green and blue of each corner, as the graphics card mixes them, from the numbers of the vertices' colors. */
 export function basinColors(numbers: Uint8Array, vertices: Uint32Array): Float32Array {
-  const palette = [...BASINS, NOWHERE].map((text) => new Color().setStyle(text).toArray());
+  const palette = [...BASINS.map((text) => new Color().setStyle(text).toArray()), NOWHERE];
   const colors = new Float32Array(3 * vertices.length);
   vertices.forEach((vertex, i) => colors.set(palette[Math.min(numbers[vertex]!, BASINS.length)]!, 3 * i));
   return colors;

@@ -22,8 +22,9 @@ export class Colors {
   }
 
   /** Another field: what is known of the one after belongs to the last. */
-  setField(label: string, range: [number, number]): void {
+  setField(label: string, range: [number, number], gap: number | null): void {
     this.legend.setRange(label, range);
+    this.legend.setGap(gap);
     this.clearDifference();
   }
 
@@ -37,8 +38,8 @@ export class Colors {
     this.name(this.coloring);
   }
 
-  setDifference({ largest, shades, colors }: Extract<Part, { kind: 'difference' }>): void {
-    this.panels.after.viewer?.setDifference(shades, colors);
+  setDifference({ largest, shades, colors, gap }: Extract<Part, { kind: 'difference' }>): void {
+    this.panels.after.viewer?.setDifference(shades, colors, gap);
     drawBar(this.differenceBar, colors);
     element('#difference-low', HTMLElement).textContent = short(-largest);
     element('#difference-high', HTMLElement).textContent = largest > 0 ? `+${short(largest)}` : '0';

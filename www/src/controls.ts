@@ -134,6 +134,11 @@ export class Controls {
     this.smoothing.writeRule(rule);
   }
 
+  /** How many vertices of the field have no value. */
+  setGaps(count: number): void {
+    this.smoothing.setGaps(count);
+  }
+
   /** What the filters' multiples are of. */
   setUnits(units: { meanEdge?: number; width?: number }): void {
     this.smoothing.setUnits(units);

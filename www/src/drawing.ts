@@ -3,6 +3,7 @@
  * makes itself. Colors, shapes, widths and sizes are its business, and neither the worker's nor the viewer's.
  */
 import type { DrawList, Lines, Scene, SnapshotOptions } from 'morse-smooth/snapshot';
+import { omitting } from './gaps';
 import type { Look, Part, PictureView, Settings } from './protocol';
 
 /** Of what has changed: grey where nothing has, and so seen on white. */
@@ -32,14 +33,15 @@ export const rangeOption = ([low, high]: readonly [number, number]): { range?: [
 /** After − before, with the middle of the colors where nothing has changed. */
 export function differencePart(scene: Scene, before: Float64Array, after: Float64Array): Part {
   const difference = after.map((value, i) => value - before[i]!);
-  const largest = difference.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  const { shades, colors } = scene.drawList(difference, {
+  const largest = difference.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+  const { shades, colors, gap } = scene.drawList(difference, {
     ...rangeOption([-largest, largest]),
     colormap: DIFFERENCE,
     levels: [],
     criticalPoints: false,
+    ...omitting(difference),
   });
-  return { kind: 'difference', largest, shades, colors };
+  return { kind: 'difference', largest, shades, colors, gap };
 }
 
 /** Everything that a picture is of. */
@@ -64,6 +66,7 @@ export function pictureOf(scene: Scene, subject: Subject, settings: Settings, vi
     levels: Float64Array.from(view.levels || bands ? levels : []),
     criticalPoints: view.glyphs,
     title,
+    ...omitting(before),
     ...(view.camera && { camera: view.camera }),
   };
   if (!after) return scene.snapshot(before, { ...options, morseComplex: complex && { persistence } });

@@ -1,5 +1,6 @@
 /** What the worker finds out about a field. No state: session.ts knows what is due. */
 import type { LevelSets, PersistencePairs, TriMesh } from 'morse-smooth';
+import { omitting } from './gaps';
 import { rangeOf } from './measures';
 import type { Arcs, Hierarchy, Pairs, Part, Settings } from './protocol';
 import { keptPairs } from './reading/pairs';
@@ -8,7 +9,10 @@ import { keptPairs } from './reading/pairs';
 const SADDLE_OFFSET = 0.002;
 
 export function hierarchyOf(mesh: TriMesh, values: Float64Array, { link }: Settings): Hierarchy {
-  const { vertices, kinds, vanishesAt, delta, minima, maxima, saddles } = mesh.deltaHierarchy(values, { link });
+  const { vertices, kinds, vanishesAt, delta, minima, maxima, saddles } = mesh.deltaHierarchy(values, {
+    link,
+    ...omitting(values),
+  });
   return {
     vertices: new Uint32Array(vertices),
     kinds: new Int8Array(kinds),
@@ -64,7 +68,9 @@ export function levelsOf(
   if (settings.levelPlaces === 'even') return { count: settings.levels };
   const kept = keptPairs(found, thresholdOf(values, settings), settings.overrides).slice(0, settings.levels);
   const saddles = [...new Set(kept.map((k) => found.saddles[k]!))];
-  return saddles.length > 0 ? mesh.levelSets(values, { saddles, offset: SADDLE_OFFSET }) : { count: 0 };
+  return saddles.length > 0
+    ? mesh.levelSets(values, { saddles, offset: SADDLE_OFFSET, ...omitting(values) })
+    : { count: 0 };
 }
 
 /** Whole lines take room: on a mesh of more vertices none are sent, and pairs are lit without the way between them. */
@@ -72,7 +78,7 @@ const MOST_VERTICES = 300_000;
 
 export function arcsOf(mesh: TriMesh, values: Float64Array): Arcs {
   const isTooLarge = mesh.vertexCount > MOST_VERTICES;
-  const complex = isTooLarge ? null : mesh.morseComplex(values);
+  const complex = isTooLarge ? null : mesh.morseComplex(values, omitting(values));
   return {
     vertices: new Uint32Array(complex?.vertices ?? []),
     offsets: new Uint32Array(complex?.offsets ?? [0]),

@@ -13,6 +13,7 @@ export class Legend {
   private readonly ticks = element('#legend-ticks', HTMLElement);
   private readonly name = element('#legend-field', HTMLElement);
   private readonly what = element('#legend-what', HTMLElement);
+  private readonly gap = element('#legend-gap', HTMLElement);
   private range: [number, number] = [0, 1];
   private levels: number[] = [];
   private plain = false;
@@ -41,6 +42,12 @@ export class Legend {
     this.name.hidden = what !== null;
     this.plain = what !== null;
     this.draw();
+  }
+
+  /** The color of what has no value; null where there are no gaps. */
+  setGap(color: number | null): void {
+    this.gap.hidden = color === null;
+    this.gap.style.setProperty('--gap', `#${(color ?? 0).toString(16).padStart(6, '0')}`);
   }
 
   setLevels(levels: number[]): void {

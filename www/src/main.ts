@@ -194,7 +194,7 @@ function show(part: Part): void {
     case 'hierarchy':
       reading.setHierarchy(part.side, part.hierarchy);
       if (part.side === 'before') constraining.setHierarchy(part.hierarchy);
-      if (shown) panels[part.side].setHierarchy(part, shown.size, shown.summary.topology, controls.read().delta);
+      if (shown) panels[part.side].setHierarchy(part, shown.size, controls.read().delta);
       return;
     case 'pairs':
       reading.setPairs(part.pairs, part.range);
@@ -238,11 +238,12 @@ function showNewMesh({ summary, look }: Extract<Part, { kind: 'mesh' }>): void {
   if (isNew) resetView();
 }
 
-function showValues({ side, label, range, shades }: Extract<Part, { kind: 'values' }>): void {
-  panels[side].setShades(label, shades);
+function showValues({ side, label, range, shades, gap, gaps }: Extract<Part, { kind: 'values' }>): void {
+  panels[side].setShades(label, shades, gap);
   if (side === 'after') return;
   paths = null;
-  colors.setField(label, range);
+  colors.setField(label, range, gap);
+  controls.setGaps(gaps);
   controls.setUnits({ width: range[1] - range[0] });
   controls.setDrawable();
   // The field is another one: what stands on the other side belongs to the last.

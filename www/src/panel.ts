@@ -1,9 +1,9 @@
 /** One side of the page, before or after: its view, its counts and its check of Euler's formula. */
-import type { CriticalCounts, MeshTopology } from 'morse-smooth';
+import type { CriticalCounts } from 'morse-smooth';
 import type { Solids, SolidSize } from 'morse-smooth/snapshot';
 import { element, whole } from './dom';
 import { chosen, SADDLE } from './glyphs';
-import type { Found, Hierarchy, Part, Side } from './protocol';
+import type { Found, Hierarchy, Part, Shape, Side } from './protocol';
 import type { Lit } from './reading/reading';
 import { countsAt, staysAt } from './reading/steps';
 import { Viewer } from './viewer';
@@ -14,7 +14,7 @@ interface Critical {
   hierarchy: Hierarchy;
   solids: readonly Solids[];
   size: SolidSize;
-  topology: MeshTopology;
+  shape: Shape;
 }
 
 export class Panel {
@@ -35,10 +35,11 @@ export class Panel {
     this.say(this.viewer ? 'Loading…' : NO_GRAPHICS);
   }
 
-  setShades(label: string, shades: Float32Array): void {
+  /** `gap`: the color of gaps. */
+  setShades(label: string, shades: Float32Array, gap: number | null): void {
     this.awaiting = false;
     this.part('label').textContent = label;
-    this.viewer?.setShades(shades);
+    this.viewer?.setShades(shades, gap);
     this.say('');
   }
 
@@ -51,21 +52,20 @@ export class Panel {
   }
 
   setHierarchy(
-    { counts, hierarchy, solids }: Extract<Part, { kind: 'hierarchy' }>,
+    { counts, hierarchy, solids, shape }: Extract<Part, { kind: 'hierarchy' }>,
     size: SolidSize,
-    topology: MeshTopology,
     delta: number,
   ): void {
-    this.critical = { counts, hierarchy, solids, size, topology };
+    this.critical = { counts, hierarchy, solids, size, shape };
     this.setDelta(delta);
   }
 
   /** The hierarchy has the answer for every δ: nothing needs to be computed while the slider moves. */
   setDelta(delta: number): void {
     if (!this.critical) return;
-    const { counts, hierarchy, solids, size, topology } = this.critical;
+    const { counts, hierarchy, solids, size, shape } = this.critical;
     this.viewer?.setSolids(delta === 0 ? solids : chosen(solids, staysAt(hierarchy, delta), size));
-    this.setCounts({ ...countsAt(hierarchy, delta), indexSum: delta === 0 ? counts.indexSum : null }, topology);
+    this.setCounts({ ...countsAt(hierarchy, delta), indexSum: delta === 0 ? counts.indexSum : null }, shape);
   }
 
   /** Names the pair that is lit in this view, if any. */
@@ -95,7 +95,7 @@ export class Panel {
   }
 
   /** On every mesh the indices of all vertices add up to its Euler characteristic; on a closed one that is m + M − s. */
-  private setCounts(counts: CriticalCounts, { eulerCharacteristic, closed }: MeshTopology): void {
+  private setCounts(counts: CriticalCounts, { eulerCharacteristic, closed }: Shape): void {
     const { minima, maxima, saddles, indexSum } = counts;
     this.part('minima').textContent = whole(minima);
     this.part('maxima').textContent = whole(maxima);

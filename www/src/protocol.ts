@@ -8,6 +8,9 @@ import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, Smooth
 import type { Camera, Colormap, DrawList, Lines, Solids, Surface } from 'morse-smooth/snapshot';
 import type { Method, Smoothing } from './smoothing/settings';
 
+/** What the numbers of critical points are compared with. */
+export type Shape = Pick<MeshTopology, 'eulerCharacteristic' | 'closed'>;
+
 export type Side = 'before' | 'after';
 /** What colors the surface: the values, the basins of one kind of extremum or, on the right, what has changed. */
 export type Coloring = 'value' | 'minima' | 'maxima' | 'difference';
@@ -165,12 +168,23 @@ export type Request =
 export type Part =
   | { kind: 'mesh'; summary: MeshSummary; look: Look }
   | { kind: 'fields'; fields: FieldEntry[]; chosen: string }
-  /** A new field: whatever was shown as its smoothed version is out of date. `range`: of the colors; `shades`: see `DrawList`. */
-  | { kind: 'values'; side: Side; label: string; range: [number, number]; shades: Float32Array }
+  /**
+   * A new field: whatever was shown as its smoothed version is out of date. `range`: of the colors; `shades` and `gap`, the color of
+   * gaps: see `DrawList`. `gaps`: how many vertices have no value.
+   */
+  | {
+      kind: 'values';
+      side: Side;
+      label: string;
+      range: [number, number];
+      shades: Float32Array;
+      gap: number | null;
+      gaps: number;
+    }
   /** Of the field before, for both sides: see `DrawList`. */
   | { kind: 'colors'; colors: Uint8Array; bands: boolean }
-  /** `counts` and `solids`: at δ = 0. */
-  | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy; solids: Solids[] }
+  /** `counts` and `solids`: at δ = 0. `shape`: of the part of the mesh that has values. */
+  | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy; solids: Solids[]; shape: Shape }
   | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
   /** `levels`: ascending. */
   | { kind: 'lines'; side: Side; lines: Lines | null; levels: number[] }
@@ -181,8 +195,11 @@ export type Part =
   | { kind: 'basins'; side: Side; colors: Uint8Array<ArrayBuffer>; count: number }
   /** Of the methods with constraints. */
   | { kind: 'constraints'; found: Found }
-  /** After − before: `largest` without its sign, in units of the field; the middle of the colors is where nothing has changed. */
-  | { kind: 'difference'; largest: number; shades: Float32Array; colors: Uint8Array }
+  /**
+   * After − before: `largest` without its sign, in units of the field; the middle of the colors is where nothing has changed. What
+   * has no value on either side has gaps.
+   */
+  | { kind: 'difference'; largest: number; shades: Float32Array; colors: Uint8Array; gap: number | null }
   | { kind: 'report'; report: AfterReport }
   | { kind: 'unsmoothed'; reason: Unsmoothed }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };

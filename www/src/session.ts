@@ -12,6 +12,8 @@ import { colorBasins } from './basins';
 import { complexLines, differencePart, levelLines, lookOf, pictureOf, rangeOption } from './drawing';
 import { Refusal } from './failure';
 import { arcsOf, hierarchyOf, levelsOf, pairsPart } from './findings';
+import { fieldFrom, gapsIn, omitting, shapeOf } from './gaps';
+import type { Field } from './gaps';
 import { meanEdgeOf, rangeOf } from './measures';
 import type { Coloring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
@@ -40,7 +42,7 @@ export class Session {
   private readonly positions: Float64Array;
   private readonly scene: Scene;
   private readonly entries: FieldEntry[];
-  private readonly fields = new Map<string, Float64Array>();
+  private readonly fields = new Map<string, Field>();
   private readonly triangles: Uint32Array;
   private readonly meanEdge: number;
   private readonly methods: Methods;
@@ -108,7 +110,7 @@ export class Session {
         `${name} has ${values.length.toLocaleString('en')} values, but ${this.name} has ${vertexCount.toLocaleString('en')} vertices`,
       );
     }
-    this.mesh.criticalPoints(values);
+    this.mesh.criticalPoints(values, omitting(values));
     const key = `added:${name}`;
     this.enter({ key, label: name, origin: 'added' }, values);
     // A field of a known name may have new values.
@@ -121,7 +123,7 @@ export class Session {
     if (!settings || !smoothed) throw new Refusal('NothingToSave', 'There is no smoothed field yet.');
     const label = this.labelOf(settings.field);
     const suffix = suffixOf(settings);
-    const fields = { [label]: this.fields.get(settings.field)!, [`${label}_${suffix}`]: smoothed };
+    const fields = { [label]: this.fields.get(settings.field)!.values, [`${label}_${suffix}`]: smoothed };
     const bytes = writeMesh(this.mesh, { format: 'ply', fields: plainNames(fields), binary: true });
     send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
   }
@@ -130,7 +132,7 @@ export class Session {
   draw(view: PictureView, send: Send): void {
     const { settings, smoothed, levels } = this;
     if (!settings) throw new Refusal('NothingToSave', 'There is no field yet.');
-    const before = this.fields.get(settings.field)!;
+    const before = this.fields.get(settings.field)!.known;
     const label = this.labelOf(settings.field);
     const subject = { before, after: smoothed, range: rangeOf(before), levels, title: `${this.name}, ${label}` };
     const bytes = pictureOf(this.scene, subject, settings, view);
@@ -151,7 +153,8 @@ export class Session {
   /** `announce` runs when the field has proved usable and nothing has been sent yet. */
   updateBefore(wanted: Settings, send: Send, announce?: () => void): void {
     const field = this.known(wanted.field);
-    const values = this.fields.get(field)!;
+    const { known: values, gaps } = this.fields.get(field)!;
+    const holes = omitting(values);
     const parts: Part[] = [];
     const keys: [string, string][] = [];
     const isDue = (slot: string, key: string): boolean => {
@@ -166,7 +169,7 @@ export class Session {
       ? hierarchyOf(this.mesh, values, wanted)
       : null;
     if (isDue('before.pairs', field) || !pairs) {
-      pairs = this.mesh.persistence(values);
+      pairs = this.mesh.persistence(values, holes);
       parts.push(pairsPart(pairs, values));
     }
     if (hasConstraints(wanted) && isDue('before.constraints', constraintsKey({ ...wanted, field }))) {
@@ -183,12 +186,15 @@ export class Session {
         bands,
         levels: lines ?? (isPainted && bands ? levels : []),
         criticalPoints: hierarchy ?? false,
-        morseComplex: separatrices ? this.mesh.morseComplex(values, { ...separatrices, paths: 'merged' }) : false,
+        morseComplex: separatrices
+          ? this.mesh.morseComplex(values, { ...separatrices, paths: 'merged', ...holes })
+          : false,
+        ...holes,
       });
-      const { range, shades, colors, solids } = list;
+      const { range, shades, gap, colors, solids } = list;
       if (lines) levels = [...list.levels];
       const drawn: Part[] = [];
-      if (isNew) drawn.push({ kind: 'values', side: 'before', label: this.labelOf(field), range, shades });
+      if (isNew) drawn.push({ kind: 'values', side: 'before', label: this.labelOf(field), range, shades, gap, gaps });
       if (isPainted) drawn.push({ kind: 'colors', colors, bands });
       if (hierarchy) drawn.push(this.hierarchyPart('before', values, hierarchy, solids));
       if (lines) drawn.push({ kind: 'lines', side: 'before', lines: levelLines(list), levels });
@@ -219,14 +225,16 @@ export class Session {
 
   updateAfter(wanted: Settings, send: Send): void {
     const field = this.known(wanted.field);
-    const before = this.fields.get(field)!;
+    const given = this.fields.get(field)!;
+    const before = given.known;
     const key = smoothingKey({ ...wanted, field });
     if (key === this.leftOut) return;
     this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
-      if (!this.smooth(before, { ...wanted, field }, key, send)) return;
+      if (!this.smooth(given, { ...wanted, field }, key, send)) return;
     }
     const values = this.smoothed!;
+    const holes = omitting(values);
     const parts: Part[] = [];
     const keys: [string, string][] = [];
     const isDue = (slot: string, slotKey: string): boolean => {
@@ -245,10 +253,14 @@ export class Session {
         ...rangeOption(rangeOf(before)),
         levels: hasLines ? this.levels : [],
         criticalPoints: hierarchy ?? false,
-        morseComplex: hasComplex && this.mesh.morseComplex(values, { persistence: 0, paths: 'merged' }),
+        morseComplex: hasComplex && this.mesh.morseComplex(values, { persistence: 0, paths: 'merged', ...holes }),
+        ...holes,
       });
-      const { range, shades, solids } = list;
-      if (isNew) parts.push({ kind: 'values', side: 'after', label: this.labelOf(field), range, shades });
+      const { range, shades, gap, solids } = list;
+      if (isNew) {
+        const [label, gaps] = [this.labelOf(field), gapsIn(values)];
+        parts.push({ kind: 'values', side: 'after', label, range, shades, gap, gaps });
+      }
       if (hierarchy) parts.push(this.hierarchyPart('after', values, hierarchy, solids));
       if (hasLines) parts.push({ kind: 'lines', side: 'after', lines: levelLines(list), levels: this.levels });
       if (hasComplex) parts.push({ kind: 'complex', side: 'after', lines: complexLines(list) });
@@ -264,7 +276,7 @@ export class Session {
   }
 
   /** False where there is nothing to hold the field with: that is said, and the page goes on without a smoothed field. */
-  private smooth(before: Float64Array, wanted: Settings, key: string, send: Send): boolean {
+  private smooth(before: Field, wanted: Settings, key: string, send: Send): boolean {
     const start = performance.now();
     const found = hasConstraints(wanted) ? this.found : null;
     try {
@@ -291,18 +303,14 @@ export class Session {
 
   private hierarchyPart(side: Side, values: Float64Array, hierarchy: Hierarchy, solids: Solids[]): Part {
     // For the index sum, which is checked against the Euler characteristic.
-    const { counts } = this.mesh.criticalPoints(values);
-    return { kind: 'hierarchy', side, counts, hierarchy, solids };
+    const { counts } = this.mesh.criticalPoints(values, omitting(values));
+    return { kind: 'hierarchy', side, counts, hierarchy, solids, shape: shapeOf(this.mesh, values) };
   }
 
   private basins(side: Side, values: Float64Array, coloring: 'minima' | 'maxima', persistence: number) {
-    const found = this.mesh.basins(values, { persistence });
+    const found = this.mesh.basins(values, { persistence, ...omitting(values) });
     const labels = coloring === 'minima' ? found.descending : found.ascending;
-    const { colors, byExtremum } = colorBasins(
-      labels,
-      this.triangles,
-      side === 'after' ? this.basinColors : undefined,
-    );
+    const { colors, byExtremum } = colorBasins(labels, this.triangles, side === 'after' ? this.basinColors : undefined);
     const part: Part = { kind: 'basins', side, colors, count: byExtremum.size };
     return { part, byExtremum };
   }
@@ -312,7 +320,7 @@ export class Session {
     if (known >= 0) this.entries[known] = entry;
     else if (entry.origin === 'added') this.entries.unshift(entry);
     else this.entries.push(entry);
-    this.fields.set(entry.key, values);
+    this.fields.set(entry.key, fieldFrom(values, this.triangles));
   }
 
   /** A request may have been made while another mesh, with other fields, was still shown. */

@@ -20,7 +20,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Camera, Lines, Solids, Surface } from 'morse-smooth/snapshot';
-import { along, basinColors, textureOf } from './colormap';
+import { along, basinColors, textureOf, withGaps } from './colormap';
 import { CurveLayer, segmentsOf } from './curves';
 import { fieldOfView, frame } from './framing';
 import { GlyphLayer, radiusOf } from './glyphs';
@@ -67,6 +67,8 @@ export class Viewer {
   private readonly plainMaterial: MeshLambertMaterial;
   private readonly basinMaterial: MeshLambertMaterial;
   private readonly differenceMaterial: MeshLambertMaterial;
+  /** The color of what has no value. */
+  private readonly gap = new Color();
   private readonly everywhere = new AmbientLight(0xffffff);
   private readonly aside = new DirectionalLight(0xffffff);
   private readonly curves: Record<Lines['kind'], CurveLayer> = {
@@ -100,9 +102,9 @@ export class Viewer {
 
     // The surface is pushed back a little in depth, so that lines lying on it are not eaten by it: see `makeRoom`.
     const pushed = { side: DoubleSide, polygonOffset: true, polygonOffsetUnits: 4 } as const;
-    this.plainMaterial = new MeshLambertMaterial(pushed);
-    this.basinMaterial = new MeshLambertMaterial({ ...pushed, vertexColors: true });
-    this.differenceMaterial = new MeshLambertMaterial(pushed);
+    this.plainMaterial = withGaps(new MeshLambertMaterial(pushed), this.gap);
+    this.basinMaterial = withGaps(new MeshLambertMaterial({ ...pushed, vertexColors: true }), this.gap);
+    this.differenceMaterial = withGaps(new MeshLambertMaterial(pushed), this.gap);
     this.surface = new Mesh(new BufferGeometry(), this.plainMaterial);
     // Before the lines, which leave no trace in depth.
     this.surface.renderOrder = -1;
@@ -169,7 +171,9 @@ export class Viewer {
     this.draw();
   }
 
-  setShades(shades: Float32Array): void {
+  /** `gap`: the color of gaps; null where there are none. */
+  setShades(shades: Float32Array, gap: number | null): void {
+    if (gap !== null) this.gap.setHex(gap);
     this.surface.geometry.setAttribute('uv', along(shades));
     this.model.visible = true;
     this.draw();
@@ -182,7 +186,8 @@ export class Viewer {
   }
 
   /** The same for what has changed, with colors of its own. */
-  setDifference(shades: Float32Array, colors: Uint8Array): void {
+  setDifference(shades: Float32Array, colors: Uint8Array, gap: number | null): void {
+    if (gap !== null) this.gap.setHex(gap);
     this.surface.geometry.setAttribute('uv1', along(shades));
     const texture = textureOf(colors, false);
     texture.channel = 1;

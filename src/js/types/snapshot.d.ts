@@ -48,6 +48,11 @@ export interface DrawOptions {
    * `TriMesh.morseComplex`. Default false.
    */
   morseComplex?: boolean | { persistence: number } | Pick<MorseComplex, 'vertices' | 'offsets' | 'kinds'>;
+  /**
+   * What NaN among the values means. `"omit"`: there is no value. Triangles with such a corner are grey, and lines and points are those
+   * of the field without them. Default `"error"` (`NonFiniteValue`).
+   */
+  missing?: 'error' | 'omit';
 }
 
 /** What {@link snapshot} takes. */
@@ -145,7 +150,7 @@ export interface Surface {
 export interface DrawList {
   /**
    * For each corner of the surface its place in `colors`, 0 to 1; below and above, the color is the first and the last. Linear on
-   * triangles, as the field is.
+   * triangles, as the field is. NaN where there is no value: then all of the triangle has the color `gap`.
    */
   shades: Float32Array;
   /**
@@ -153,6 +158,8 @@ export interface DrawList {
    * has steps, and the nearest color is the right one.
    */
   colors: Uint8Array;
+  /** The color of triangles with a corner without a value; null where every corner has one. */
+  gap: number | null;
   /** The values with shade 0 and 1. */
   range: [number, number];
   /** The levels, ascending, each once. */

@@ -44,8 +44,8 @@ pub(super) fn draw_list(list: &DrawList) -> Result<Object, OutOfMemory> {
     singles(&answer, "shades", &list.shades);
     answer.array("colors", colors.as_flattened());
     match list.gap {
-        Some(gap) => color(&answer, "gap", gap),
         None => answer.set("gap", &JsValue::NULL),
+        Some([red, green, blue]) => answer.number("gap", f64::from(u32::from_be_bytes([0, red, green, blue]))),
     }
     answer.set("range", &numbers(&list.range));
     answer.array("levels", &list.levels);
@@ -60,14 +60,14 @@ pub(super) fn draw_list(list: &DrawList) -> Result<Object, OutOfMemory> {
 
 fn lines(lines: &Lines) -> Result<Object, OutOfMemory> {
     let stroke = Answer::new();
-    color(&stroke, "color", lines.stroke.color);
+    color(&stroke, lines.stroke.color);
     stroke.number("width", lines.stroke.width);
     stroke.number("opacity", lines.stroke.opacity);
     match lines.stroke.casing {
         None => stroke.set("casing", &JsValue::NULL),
         Some(given) => {
             let casing = Answer::new();
-            color(&casing, "color", given.color);
+            color(&casing, given.color);
             casing.number("width", given.width);
             stroke.part("casing", casing);
         }
@@ -87,12 +87,12 @@ fn solids(solids: &Solids) -> Result<Object, OutOfMemory> {
     singles(&shape, "normals", solids.shape.normals.as_flattened());
     shape.array("triangles", solids.shape.triangles.as_flattened());
     let rim = Answer::new();
-    color(&rim, "color", solids.rim.color);
+    color(&rim, solids.rim.color);
     rim.number("scale", solids.rim.scale);
     let answer = Answer::new();
     kind(&answer, solids.role);
     answer.part("shape", shape);
-    color(&answer, "color", solids.color);
+    color(&answer, solids.color);
     answer.part("rim", rim);
     answer.number("glow", solids.glow);
     answer.array("vertices", &solids.vertices);
@@ -116,8 +116,9 @@ fn kind(answer: &Answer, role: Role) {
     answer.text("kind", name);
 }
 
-fn color(answer: &Answer, name: &str, [red, green, blue]: Rgb) {
-    answer.number(name, f64::from(u32::from_be_bytes([0, red, green, blue])));
+fn color(answer: &Answer, [red, green, blue]: Rgb) {
+    let color = u32::from_be_bytes([0, red, green, blue]);
+    answer.number("color", f64::from(color));
 }
 
 /// Few numbers, as an ordinary array.

@@ -23,9 +23,9 @@ pub(super) struct Input {
     range: Option<[f64; 2]>,
     levels: Option<LevelInput>,
     bands: Option<bool>,
-    missing: Missing,
     critical_points: Option<PointInput>,
     morse_complex: Option<ComplexInput>,
+    missing: Option<Missing>,
     width: Option<u32>,
     height: Option<u32>,
     color_bar: Option<bool>,
@@ -46,7 +46,7 @@ impl Input {
                 bands: record.boolean("bands"),
                 critical_points: record.part("criticalPoints", PointInput::read),
                 morse_complex: record.part("morseComplex", ComplexInput::read),
-                missing: record.choice("missing").unwrap_or_default(),
+                missing: missing(record),
                 ..Self::default()
             };
             if kind >= Kind::Picture {
@@ -77,9 +77,9 @@ impl Input {
             range: self.range,
             levels: self.levels.as_ref().map_or(defaults.levels, LevelInput::levels),
             bands: self.bands.unwrap_or(defaults.bands),
-            missing: self.missing,
             critical_points: self.critical_points.as_ref().map_or(defaults.critical_points, PointInput::glyphs),
             morse_complex: self.morse_complex.as_ref().map_or(defaults.morse_complex, ComplexInput::separatrices),
+            missing: self.missing.unwrap_or(defaults.missing),
         }
     }
 
@@ -116,6 +116,10 @@ fn colormap(record: &Record, option: &'static str) -> Option<Colormap> {
         OptionError::InvalidOption { expected, .. } => OptionError::invalid(option, &expected),
         other => other,
     }))
+}
+
+fn missing(record: &Record) -> Option<Missing> {
+    record.read("missing", "one of \"error\", \"omit\", \"fill\"", |value| Missing::from_name(&value.as_string()?))
 }
 
 fn camera(value: &JsValue) -> Result<Camera> {

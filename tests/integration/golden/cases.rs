@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use morse_smooth::field::Threshold;
+use morse_smooth::field::{Missing, Threshold};
 use morse_smooth::load::{LoadOptions, load};
 use morse_smooth::render::{
     Camera, Colormap, DrawOptions, Glyphs, Levels, Separatrices, SheetOptions, SnapshotOptions, sheet, snapshot,
@@ -81,6 +81,7 @@ impl Case {
                 "bands" => draw.bands = value.as_bool().expect("yes or no"),
                 "levels" if value.is_array() => draw.levels = Levels::At(levels),
                 "levels" => draw.levels = Levels::Count(number(&value["count"]) as u32),
+                "missing" => draw.missing = Missing::from_name(value.as_str().expect("a name")).expect("a meaning"),
                 "criticalPoints" => {
                     draw.critical_points = if value == &Value::Bool(true) { Glyphs::Found } else { Glyphs::None };
                 }

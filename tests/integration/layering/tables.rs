@@ -117,19 +117,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["scene", "mod"],
             ],
         ),
-        (
-            "wasm",
-            &[
-                &["error"],
-                &["convert"],
-                &["options"],
-                &["mesh"],
-                &["critical", "files", "levels", "persistence"],
-                &["smoother"],
-                &["snapshot"],
-                &["mod"],
-            ],
-        ),
+        ("wasm", &[&["shared"], &["core", "snapshot"], &["mod"]]),
     ],
     platform: &["mesh/shapes.rs"],
 };

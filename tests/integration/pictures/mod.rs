@@ -1,6 +1,7 @@
 //! What pictures show, against what they should: projections, light and coverage computed anew, and facts that need no computing.
 
 mod framing;
+mod gaps;
 mod glyphs;
 pub(crate) mod image;
 mod invariance;

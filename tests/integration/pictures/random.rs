@@ -1,6 +1,6 @@
 //! Whatever is asked for: a picture of that size, or an error with a name; never a panic.
 
-use morse_smooth::field::{CriticalKind, CriticalPoint, Threshold};
+use morse_smooth::field::{CriticalKind, CriticalPoint, Missing, Threshold};
 use morse_smooth::mesh::TriMesh;
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::render::{
@@ -55,7 +55,10 @@ proptest! {
     fn any_options_give_a_picture_or_an_error(seed in any::<u64>()) {
         let mut random = Random::new(seed);
         let mesh = any_mesh(seed / 7);
-        let values = any_field(&mesh, seed);
+        let mut values = any_field(&mesh, seed);
+        if seed % 3 == 0 {
+            values.iter_mut().step_by(5).for_each(|value| *value = f64::NAN);
+        }
         let n = mesh.vertex_count() as f64;
         let few: Vec<f64> = (0..3).map(|_| number(&mut random)).collect();
         let points: Vec<CriticalPoint> = (0..4)
@@ -88,6 +91,7 @@ proptest! {
             } else {
                 Separatrices::None
             },
+            missing: [Missing::Error, Missing::Omit, Missing::Fill][(2.2 * random.uniform()) as usize],
         };
         let camera = Camera {
             direction: chance(&mut random, 0.6).then(|| vector(&mut random)),

@@ -91,13 +91,7 @@ export class Diagram {
     const [low, high] = this.selection.range;
     const width = this.selection.width;
     const ratio = uPlot.pxRatio;
-    const line = (
-      from: [number, number],
-      to: [number, number],
-      color: string,
-      thick: number,
-      dash: number[],
-    ): void => {
+    const line = (from: [number, number], to: [number, number], color: string, thick: number, dash: number[]): void => {
       ctx.strokeStyle = color;
       ctx.lineWidth = thick * ratio;
       ctx.setLineDash(dash.map((length) => length * ratio));

@@ -1,6 +1,7 @@
 /** The part of the form that chooses a method: shows only what that method takes. */
 import { clamp, element, input, select, short } from '../dom';
-import { byElements, INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
+import type { Missing } from '../gaps';
+import { byElements, canFill, INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
 import type { Method, Rule, Smoothing } from './settings';
 
 const EPSILON_RANGE = [1e-6, 1e4] as const;
@@ -35,6 +36,8 @@ export class SmoothingControls {
   private readonly energy = select('energy');
   private readonly weights = select('weights');
   private readonly bounds = input('bounds');
+  private readonly gaps = element('#gaps', HTMLElement);
+  private readonly missing = select('missing');
   private readonly filter = select('filter');
   private readonly rule = select('rule');
   private readonly stars = input('stars');
@@ -70,6 +73,7 @@ export class SmoothingControls {
   /** Of the mesh and of the field: what the bilateral filter's multiples are of. */
   private meanEdge = 0;
   private width = 0;
+  private hasGaps = false;
 
   /** `changed` is called for whatever has to be computed. */
   constructor(private readonly changed: () => void) {
@@ -84,6 +88,7 @@ export class SmoothingControls {
       method: this.method.value as Method,
       weights: this.weights.value as Smoothing['weights'],
       bounds: this.bounds.checked,
+      missing: this.missing.value as Missing,
       epsilon: Number(this.epsilonNumber.value),
       metric: this.metric.value as Smoothing['metric'],
       wavelength: readQuantity(this.wavelength),
@@ -102,6 +107,7 @@ export class SmoothingControls {
     this.method.value = method;
     this.weights.value = weights;
     this.bounds.checked = bounds;
+    this.missing.value = choices.missing;
     this.metric.value = metric;
     this.energy.value = energy;
     this.rule.value = choices.rule;
@@ -128,6 +134,12 @@ export class SmoothingControls {
     this.show();
   }
 
+  /** The choice what becomes of gaps is there where the field has some and the method can do either. */
+  setGaps(count: number): void {
+    this.hasGaps = count > 0;
+    this.show();
+  }
+
   private writeEpsilon(value: number): void {
     const epsilon = clamp(value, EPSILON_RANGE);
     this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
@@ -147,6 +159,7 @@ export class SmoothingControls {
       for (const part of document.querySelectorAll<HTMLElement>(`[data-${name}]`))
         part.hidden = !part.dataset[key]!.split(' ').includes(value);
     }
+    this.gaps.hidden = !this.hasGaps || !canFill({ method });
     const isSimplify = method === 'simplify';
     element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
     this.wavelengthUnits.textContent = `${short(readQuantity(this.wavelength) * this.meanEdge)} in units of the mesh. Waves of this length keep half of their amplitude.`;
@@ -180,8 +193,8 @@ export class SmoothingControls {
         changed();
       });
     }
-    const { method, metric, energy, weights, bounds, filter, rule, stars, unconstrained } = this;
-    for (const choice of [method, metric, energy, weights, bounds, filter, rule, stars, unconstrained]) {
+    const { method, metric, energy, weights, bounds, missing, filter, rule, stars, unconstrained } = this;
+    for (const choice of [method, metric, energy, weights, bounds, missing, filter, rule, stars, unconstrained]) {
       choice.addEventListener('change', () => {
         this.show();
         changed();

@@ -2,6 +2,8 @@
 import { Smoother } from 'morse-smooth';
 import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
 import { keptExtrema, thresholdOf } from '../findings';
+import { omitting, onPart } from '../gaps';
+import type { Field } from '../gaps';
 import { rangeOf } from '../measures';
 import type { AfterReport, Found, Settings } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
@@ -28,9 +30,9 @@ export class Methods {
   }
 
   /** `found`: of the methods with constraints. */
-  run(values: Float64Array, settings: Settings, pairs: PersistencePairs, found: Found | null): Result {
-    if (settings.method === 'simplify') return this.simplified(values, settings, pairs);
-    const { values: smoothed, report } = this.smoothed(values, settings, found);
+  run(field: Field, settings: Settings, pairs: PersistencePairs, found: Found | null): Result {
+    if (settings.method === 'simplify') return this.simplified(field.known, settings, pairs);
+    const { values: smoothed, report } = this.smoothed(field, settings, found);
     const { method, ...others } = report;
     const { lInfinity, sobolevBefore, sobolevAfter, before, after } = others;
     return {
@@ -48,21 +50,24 @@ export class Methods {
     };
   }
 
-  private smoothed(values: Float64Array, settings: Settings, found: Found | null): Smoothed {
+  private smoothed({ values, known, gaps }: Field, settings: Settings, found: Found | null): Smoothed {
     const smoother = this.smootherFor(settings);
     const { epsilon, metric, wavelength, energy, stars, unconstrained } = settings;
+    const holes = omitting(values);
+    const missing = gaps > 0 ? { missing: settings.missing } : {};
     const constraints = { from: 'vertices', vertices: found?.features ?? [], stars } as const;
     switch (settings.method) {
       case 'interpolate':
-        return smoother.interpolate(values, { constraints, energy, unconstrained });
+        return smoother.interpolate(values, { constraints, energy, unconstrained, ...missing });
       case 'leastSquares':
-        return smoother.leastSquares(values, { constraints, epsilon, unconstrained });
+        return smoother.leastSquares(values, { constraints, epsilon, unconstrained, ...missing });
       case 'lowPass':
-        return smoother.lowPass(values, settings.lowPass);
+        return smoother.lowPass(values, { ...settings.lowPass, ...holes });
       case 'bilateral': {
         const { iterations, radius, sigmaDistance, sigmaValue } = settings.bilateral;
-        const [low, high] = rangeOf(values);
+        const [low, high] = rangeOf(known);
         return smoother.bilateral(values, {
+          ...holes,
           iterations,
           radius: radius * this.meanEdge,
           sigmaDistance: sigmaDistance * this.meanEdge,
@@ -72,8 +77,8 @@ export class Methods {
       }
       default:
         return metric === 'finiteElements'
-          ? smoother.tikhonov(values, { cutoffWavelength: wavelength * this.meanEdge })
-          : smoother.tikhonov(values, { epsilon, metric });
+          ? smoother.tikhonov(values, { cutoffWavelength: wavelength * this.meanEdge, ...missing })
+          : smoother.tikhonov(values, { epsilon, metric, ...missing });
     }
   }
 
@@ -93,29 +98,34 @@ export class Methods {
 
   private simplified(before: Float64Array, settings: Settings, pairs: PersistencePairs): Result {
     const { persistence, overrides } = settings;
-    const { values } = this.mesh.simplify(
-      before,
-      hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence },
-    );
+    const holes = omitting(before);
+    const { values } = this.mesh.simplify(before, {
+      ...(hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence }),
+      ...holes,
+    });
     const [low, high] = rangeOf(before);
     const range = high > low ? high - low : 1;
     let largest = 0;
-    for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!));
+    // What is missing differs by nothing.
+    for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!) || 0);
     return {
       values,
       method: 'simplify',
       settings: nameOf(settings),
-      before: this.mesh.criticalPoints(before).counts,
-      after: this.mesh.criticalPoints(values).counts,
+      before: this.mesh.criticalPoints(before, holes).counts,
+      after: this.mesh.criticalPoints(values, holes).counts,
       lInfinity: largest / range,
-      sobolevBefore: this.mesh.smoothness(before).sobolev / range ** 2,
-      sobolevAfter: this.mesh.smoothness(values).sobolev / range ** 2,
+      sobolevBefore: sobolevOf(this.mesh, before) / range ** 2,
+      sobolevAfter: sobolevOf(this.mesh, values) / range ** 2,
       features: null,
       smoothing: null,
       pairsRemoved: pairs.extrema.length - keptPairs(pairs, thresholdOf(before, settings), overrides).length,
     };
   }
 }
+
+const sobolevOf = (mesh: TriMesh, values: Float64Array): number =>
+  onPart(mesh, values, (part) => part.mesh.smoothness(part.values).sobolev);
 
 /** What the report needs to know of how the field was made. */
 function nameOf({ metric, energy, lowPass }: Settings): AfterReport['settings'] {

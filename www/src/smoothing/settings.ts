@@ -1,5 +1,6 @@
 /** What makes the field on the right, and everything that each method takes. */
 import type { LaplacianWeights, Metric } from 'morse-smooth';
+import type { Missing } from '../gaps';
 import type { Settings } from '../protocol';
 
 export type Method = 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral' | 'simplify';
@@ -26,6 +27,8 @@ export interface Smoothing {
   weights: LaplacianWeights;
   /** Whether the report is to bound the influence of errors, which takes more solves. */
   bounds: boolean;
+  /** What becomes of gaps in the field; only some methods can fill. */
+  missing: Missing;
   epsilon: number;
   /** Of Tikhonov smoothing; with finite elements a wavelength takes the place of ε. */
   metric: Metric | 'finiteElements';
@@ -46,6 +49,7 @@ export const INITIAL_SMOOTHING: Smoothing = {
   method: 'tikhonov',
   weights: 'cotangent',
   bounds: false,
+  missing: 'omit',
   epsilon: 0.1,
   metric: 'mass',
   wavelength: 10,
@@ -64,6 +68,11 @@ export const TAUBIN_MU = -0.53;
 
 export function hasConstraints({ method }: { method: Method }): boolean {
   return method === 'interpolate' || method === 'leastSquares';
+}
+
+/** Whether the method can give values to vertices that have none. */
+export function canFill({ method }: { method: Method }): boolean {
+  return method === 'tikhonov' || hasConstraints({ method });
 }
 
 export function byElements({ method, metric }: Pick<Smoothing, 'method' | 'metric'>): boolean {
@@ -111,7 +120,8 @@ export function smoothingKey(settings: Settings): string {
     bilateral: [settings.bilateral],
     simplify: [persistence, overrides],
   }[method];
-  return JSON.stringify([field, method, by, method === 'simplify' ? [] : [weights, bounds]]);
+  const missing = canFill({ method }) ? settings.missing : 'omit';
+  return JSON.stringify([field, method, by, missing, method === 'simplify' ? [] : [weights, bounds]]);
 }
 
 /** What the saved field's name ends in. */
