@@ -25,7 +25,17 @@ pub(crate) const RULES: Rules = Rules {
         ("render", &["error", "support", "mesh", "field"]),
     ],
     orders: &[
-        ("io", &[&["scan"], &["cursor"], &["assembly"], &["obj", "off", "ply", "vtk", "table"], &["write"], &["mod"]]),
+        (
+            "io",
+            &[
+                &["mesh_data", "scan"],
+                &["cursor"],
+                &["assembly"],
+                &["obj", "off", "ply", "vtk", "table"],
+                &["write"],
+                &["mod"],
+            ],
+        ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
         ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
@@ -35,7 +45,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["ids", "permutation"],
                 &["graph", "queue"],
                 &["leaf", "refine"],
-                &["edge_cut", "flow", "minimum_degree"],
+                &["edge_cut", "max_flow", "minimum_degree"],
                 &["bisection"],
                 &["dissection"],
                 &["mod"],
@@ -71,7 +81,7 @@ pub(crate) const RULES: Rules = Rules {
         (
             "field",
             &[
-                &["order", "sorting", "link"],
+                &["arrays", "order", "sorting", "link"],
                 &["scalar_field", "sweep"],
                 &["critical", "steepest"],
                 &["delta_hierarchy", "saddles", "level"],
