@@ -6,6 +6,7 @@ use super::Operator;
 use crate::error::Result;
 use crate::mesh::{LinkKind, TriMesh};
 use crate::operators::{MassScale, lumped_mass_diagonal};
+use crate::support::memory;
 
 /// The component of a vertex that is not active.
 const NONE: u32 = u32::MAX;
@@ -22,7 +23,11 @@ pub(super) struct ActiveVertices {
 }
 
 impl ActiveVertices {
+    /// # Errors
+    /// `OutOfMemory`.
     pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
+        // The list, the components, and the areas or a stack that has doubled.
+        memory::ensure(16 * mesh.vertex_count() as u64)?;
         let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
         let kinds = mesh.connectivity().link_kinds();
         let mut list = Vec::with_capacity(kinds.len());
@@ -35,6 +40,7 @@ impl ActiveVertices {
                 list.push(v as u32);
             }
         }
+        drop(areas);
         let mut vertices = Self { component: vec![NONE; kinds.len()], list, first: Vec::new() };
         vertices.number(laplacian);
         Ok(vertices)

@@ -106,6 +106,11 @@ impl<'a> Channels<'a> {
         })
     }
 
+    /// The most channels of a group.
+    pub(super) fn most_together(&self) -> usize {
+        self.count().min(TOGETHER)
+    }
+
     /// How many groups there are.
     pub(super) fn group_count(&self) -> usize {
         self.count().div_ceil(TOGETHER)

@@ -29,7 +29,7 @@ fn run(
     channels: usize,
 ) -> morse_smooth::Result<Smoothed> {
     match method {
-        Some(energy) => smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels }),
+        Some(energy) => smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels, ..InterpolateOptions::default() }),
         None => {
             let options = LeastSquaresOptions {
                 constraints,

@@ -46,7 +46,10 @@ mod saddle_levels;
 mod simplify;
 mod smooth;
 mod smooth_iterative;
+mod smooth_missing;
+mod smooth_stopped;
 mod solve;
+mod solve_watch;
 mod stopping;
 mod support;
 #[cfg(feature = "render")]

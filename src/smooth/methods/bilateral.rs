@@ -15,6 +15,7 @@ use crate::smooth::names::{Equation, MethodName};
 use crate::smooth::report::{About, Measures, Smoothed};
 use crate::smooth::run::{Found, Procedure, Solution, run};
 use crate::smooth::schedule::{Schedule, Stages};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// Options of [`Smoother::bilateral`].
@@ -63,6 +64,8 @@ pub(in crate::smooth) fn check(options: &BilateralOptions) -> Result<(), OptionE
 pub(in crate::smooth) fn start(input: &Input<'_>, options: &BilateralOptions, watch: &Watch<'_>) -> Result<Smoothed> {
     let schedule = Schedule::of_filter(input.channels.group_count());
     let stages = schedule.stages(watch);
+    // The grid while it is sorted; coordinates, and the values of two steps.
+    memory::ensure(64 * input.operators.mesh.vertex_count() as u64)?;
     let points = Points::new(&input.operators.mesh, options.radius);
     let about = About {
         method: MethodName::Bilateral,

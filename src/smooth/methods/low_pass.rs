@@ -14,6 +14,7 @@ use crate::smooth::names::{Equation, MethodName};
 use crate::smooth::report::{About, Measures, Smoothed};
 use crate::smooth::run::{Found, Procedure, Solution, run};
 use crate::smooth::schedule::{Schedule, Stages};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// Beyond this, in units of the range of the input, values grow and do not come back: no filter with non-negative weights that
@@ -54,6 +55,9 @@ pub(in crate::smooth) fn start(input: &Input<'_>, options: &LowPassOptions, watc
     let &LowPassOptions { iterations, lambda, mu, .. } = options;
     let schedule = Schedule::of_filter(input.channels.group_count());
     let stages = schedule.stages(watch);
+    // The averages; the diagonal, the sums that bounds are made from, or the values of two steps.
+    let (n, entries) = (operators.mesh.vertex_count() as u64, operators.laplacian.nnz() as u64);
+    memory::ensure(12 * entries + 40 * n)?;
     let diagonal = diagonal(&operators.laplacian);
     let perturbation_factor = match operators.options.bounds {
         true => bounds::low_pass(&operators.laplacian, &diagonal, operators.is_symmetric(), [lambda, mu], iterations),

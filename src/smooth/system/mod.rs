@@ -12,7 +12,18 @@ pub(super) use regularized::RegularizedSystem;
 
 use super::names::{Route, UsedPrecision};
 use super::routes::{Answer, Problem, RightHandSide};
-use crate::error::{Error, SmoothError, SolveError};
+use crate::error::{Error, OutOfMemory, SmoothError, SolveError};
+use crate::support::memory;
+
+/// Bytes of an entry of a sparse matrix, and those that solving takes for each unknown and channel beside the factor: the right-hand
+/// side, the solution, its residual and correction, each twice as long where the route is complex, and as complex numbers.
+const ENTRY: u64 = (size_of::<usize>() + size_of::<f64>()) as u64;
+const SOLVING: u64 = 88;
+
+/// Makes sure of the memory that solving takes beside the factor.
+fn ensure_solving(rows: usize, channels: usize) -> Result<(), OutOfMemory> {
+    memory::ensure(SOLVING * rows as u64 * channels as u64)
+}
 
 /// One solved channel.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Solved, on_mesh, solved};
+use super::{ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::Result;
 use crate::operators::{MassScale, lumped_mass_diagonal};
 use crate::smooth::Operator;
@@ -13,6 +13,7 @@ use crate::smooth::operators::Operators;
 use crate::smooth::routes::{FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, SymmetricPart, Task};
 use crate::smooth::schedule::Stages;
 use crate::solve::{columns, product, submatrix};
+use crate::support::memory;
 use crate::support::named::named;
 
 /// What interpolation makes least.
@@ -58,6 +59,8 @@ enum Equations {
 impl ReducedSystem {
     pub(in crate::smooth) fn new(operators: &Operators, energy: Energy, free: &[u32]) -> Result<Self> {
         let laplacian = &operators.laplacian;
+        // The matrix, and what is symmetric of it.
+        memory::ensure(2 * ENTRY * laplacian.nnz() as u64)?;
         let equations = match (energy, operators.is_symmetric()) {
             (Energy::Harmonic, true) => Equations::Harmonic,
             (Energy::Harmonic, false) => Equations::HarmonicSquared,
@@ -120,6 +123,7 @@ impl ReducedSystem {
         settings: SolverSettings,
         stages: &mut Stages<'_, '_>,
     ) -> Result<Solved> {
+        ensure_solving(self.matrix.nrows(), channels.len())?;
         let right_hand_sides: Vec<RightHandSide> =
             channels.iter().map(|channel| self.right_hand_side(laplacian, &channel.normalized)).collect();
         let problem = problem(&self.matrix, &self.equations);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{Solved, on_mesh, solved};
+use super::{ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::{Result, SmoothError};
 use crate::operators::{MassScale, lumped_mass_diagonal};
 use crate::smooth::Operator;
@@ -16,6 +16,7 @@ use crate::smooth::routes::{
 };
 use crate::smooth::schedule::{Stages, Work};
 use crate::solve::submatrix;
+use crate::support::memory;
 
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
@@ -47,6 +48,8 @@ struct Matrices {
 impl RegularizedSystem {
     /// `unknowns`: ascending vertices that L ties to no others.
     pub(in crate::smooth) fn new(operators: &Operators, unknowns: &[u32], term: &Arc<DataTerm>) -> Result<Self> {
+        // L, and B with the matrix that it is cut from.
+        memory::ensure(3 * ENTRY * operators.laplacian.nnz() as u64)?;
         let all = unknowns.len() == operators.laplacian.ncols();
         let laplacian = if all { operators.laplacian.clone() } else { submatrix(&operators.laplacian, unknowns) };
         let weights = match operators.options.operator {
@@ -80,6 +83,7 @@ impl RegularizedSystem {
     pub(in crate::smooth) fn set_term(&mut self, operators: &Operators, term: &Arc<DataTerm>) -> Result<()> {
         let matrices = &mut self.matrices;
         if matrices.term != *term {
+            memory::ensure(2 * ENTRY * matrices.laplacian.nnz() as u64)?;
             matrices.mass = term.matrix(&operators.mesh, &matrices.unknowns)?;
             matrices.term = Arc::clone(term);
         }
@@ -105,6 +109,7 @@ impl RegularizedSystem {
         stages: &mut Stages<'_, '_>,
     ) -> Result<Solved> {
         let Self { matrices, routes } = self;
+        ensure_solving(matrices.unknowns.len(), channels.len())?;
         let unknowns = &matrices.unknowns;
         let restrict = |channel: &Channel| RightHandSide {
             field: unknowns.iter().map(|&v| channel.normalized[v as usize]).collect(),
