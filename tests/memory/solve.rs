@@ -27,7 +27,7 @@ fn matrices() -> Vec<(String, CscMatrix<f64>)> {
     ];
     let mut all = Vec::new();
     for (name, mesh) in meshes {
-        let mut matrix = cotan_laplacian(&mesh.unwrap());
+        let mut matrix = cotan_laplacian(&mesh.unwrap()).unwrap();
         matrix.triplet_iter_mut().filter(|(i, j, _)| i == j).for_each(|(_, _, value)| *value += 0.1);
         all.push((name.to_owned(), matrix));
     }
