@@ -81,7 +81,7 @@ describe('the options', () => {
       refused({ range }, 'InvalidOption', { option: 'range' });
       expectError(() => scene.drawList(field, { range }), 'InvalidOption', { option: 'range' });
     }
-    for (const range of [...notPlain, { 0: 0, 1: 1 }, ['0', '1'], [0, null], new Int8Array(2), true]) {
+    for (const range of [...notPlain, { 0: 0, 1: 1 }, ['0', '1'], [0, null], new BigInt64Array(2), true]) {
       refused({ range }, 'InvalidArgument', { argument: 'range' });
     }
   });
