@@ -234,12 +234,12 @@ fn the_bar_says_what_grey_means() {
     assert!(patch.len() > 60, "{} pixels", patch.len());
     assert!(patch.iter().all(|&[x, y]| x > 400 && y > lowest), "{patch:?}");
     // Where there is no room for the words, the bar is as it is without gaps.
-    let narrow = SnapshotOptions { width: 300, height: 180, ..options };
+    let narrow = SnapshotOptions { width: 250, height: 180, ..options };
     let bar_of = |values: &[f64]| {
         let image = draw(&mesh, values, &narrow);
-        let right = |x: &usize| *x >= 230;
+        let right = |x: &usize| *x >= 180;
         (0..180)
-            .flat_map(|y| (0..300).filter(right).map(move |x| [x, y]))
+            .flat_map(|y| (0..250).filter(right).map(move |x| [x, y]))
             .map(|[x, y]| image.at(x, y))
             .collect::<Vec<_>>()
     };
