@@ -286,7 +286,7 @@ stage_error! {
         TrianglesNotTriples {
             /// Length of the array.
             length: usize,
-        } => "triangles come in triples of vertex ids, but there are {length} ids",
+        } => "triangles have three vertices each, but there are {length}",
         /// More vertices or triangles than ids can name.
         TooManyElements {
             /// How many.
@@ -515,7 +515,7 @@ stage_error! {
             /// Why it does not apply.
             reason: String,
         } => "option `{option}` does not apply: {reason}",
-        /// An option that this version does not offer yet.
+        /// A value of an option that this version does not offer yet.
         UnsupportedOption {
             /// Its name.
             option: String,
@@ -529,11 +529,6 @@ stage_error! {
             /// What it takes.
             expected: String,
         } => "`{argument}` must be {expected}",
-        /// An object that was freed before.
-        UseAfterFree {
-            /// The class.
-            object: String,
-        } => "this {object} was freed",
     }
 }
 

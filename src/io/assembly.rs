@@ -1,7 +1,7 @@
 //! What the readers share: faces become triangles, fields get unique names, what is left out becomes a warning.
 
+use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{push, reserve, room};
-use super::{MeshData, MeshFormat};
 use crate::error::{Diagnostic, ParseError};
 
 /// Counts faces of a kind and keeps the first few.

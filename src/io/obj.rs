@@ -1,8 +1,8 @@
 //! Wavefront OBJ: `v` and `f` rows; ids count from 1, negative ones back from the last vertex. Text only.
 
 use super::assembly::{Assembly, check_count};
+use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{Scanner, excerpt, parse_integer, parse_number, push};
-use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 
 /// Keywords that a file of this format starts with.

@@ -1,8 +1,8 @@
 //! Object File Format: a keyword, three counts, vertices, faces. Text only.
 
 use super::assembly::{Assembly, check_count};
+use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{Scanner, parse_count, parse_integer, parse_number, reserve};
-use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 
 /// What the keyword says about the vertices.

@@ -3,8 +3,8 @@
 
 use super::assembly::{Assembly, check_count};
 use super::cursor::{Cursor, NumberType};
+use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{Scanner, excerpt, parse_integer, parse_number, require, reserve};
-use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

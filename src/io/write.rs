@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use super::MeshFormat;
 use super::assembly::{Names, check_count, check_length};
+use super::mesh_data::MeshFormat;
 use super::scan::{reserve, room};
 use crate::error::ParseError;
 

@@ -62,11 +62,11 @@ impl Connectivity {
         Ok(this)
     }
 
-    /// An estimate of the bytes that [`Connectivity::new`] takes, the triangles included.
+    /// An estimate of the bytes that [`Connectivity::new`] takes, besides the triangles.
     pub(super) fn bytes(n: usize, m: usize) -> u64 {
-        // Triangles, their edges, their stars, the triangles of edges; edges and their offsets; offsets of stars, links, special
+        // Edges of the triangles, their stars, the triangles of edges; edges and their offsets; offsets of stars, links, special
         // vertices, and two lists that only their classification needs.
-        48 * m as u64 + 12 * edge_room(n, m) as u64 + 14 * n as u64
+        36 * m as u64 + 12 * edge_room(n, m) as u64 + 14 * n as u64
     }
 
     /// Collects the half-edges of every vertex that lead to a larger id, sorted by that id, so that edges come out in

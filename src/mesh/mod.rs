@@ -63,11 +63,11 @@ impl TriMesh {
         let n = positions.len() / 3;
         validate::check_positions(&positions)?;
         validate::check_ids(&triangles, n)?;
-        let m = triangles.len() / 3;
-        // The areas come last, when what the checks took is free again.
-        memory::ensure(Connectivity::bytes(n, m) + 8 * m as u64)?;
+        memory::ensure(validate::bytes(n, triangles.len() / 3))?;
         let checked = validate::check(n, &triangles)?;
         drop(triangles);
+        let m = checked.triangles.len();
+        memory::ensure(Connectivity::bytes(n, m) + 8 * m as u64)?;
         let connectivity = Connectivity::new(n, checked.triangles)?;
         let areas = geometry::areas(&positions, connectivity.triangles());
         let has_no_area = || areas.iter().map(|&area| area == 0.0);

@@ -73,6 +73,7 @@ fn sweep(connectivity: &Connectivity) -> (usize, bool) {
     let components = (0..connectivity.vertex_count() as u32)
         .filter(|&v| connectivity.link_kinds()[v as usize] != LinkKind::Isolated && vertices.find(v) == v)
         .count();
+    drop(vertices);
     (components, orientable(connectivity))
 }
 

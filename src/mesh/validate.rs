@@ -13,7 +13,13 @@ pub(super) struct Checked {
     pub(super) warnings: Vec<Diagnostic>,
 }
 
-/// `triangles` must have passed [`check_ids`].
+/// The bytes that [`check`] takes at most, its result included.
+pub(super) fn bytes(n: usize, m: usize) -> u64 {
+    // The triangles kept; which of them are repetitions, and to find these: triangles in buckets, and the keys of one bucket.
+    12 * m as u64 + 14 * m as u64 + 4 * n as u64
+}
+
+/// Finds the triangles that can be kept. They must have passed [`check_ids`].
 pub(super) fn check(n: usize, triangles: &[u32]) -> Result<Checked, MeshError> {
     let (all, _) = triangles.as_chunks::<3>();
     let names_twice = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
@@ -74,7 +80,7 @@ pub(super) fn check_positions(positions: &[f64]) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// For every triangle whether an earlier one has the same vertices. Takes 14 bytes per triangle and 4 per vertex at most.
+/// For every triangle whether an earlier one has the same vertices.
 fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<bool> {
     // Bucket by the smallest vertex; buckets are small, so sorting them is nearly linear.
     let smallest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);

@@ -33,21 +33,21 @@ const NO_VALUE: &str = "no value";
 const GAP_BELOW: f64 = 0.9;
 const GAP_HEIGHT: f64 = 0.8;
 
-/// The width that [`draw_legend`] needs for a list in a rectangle of that height; 0 where it draws nothing.
-pub(super) fn legend_width(list: &DrawList, height: f64, text_size: f64) -> f64 {
+/// The width that [`draw_legend`] needs for a list in a rectangle of that height, and what it needs without naming gaps; 0 where
+/// it draws nothing.
+pub(super) fn legend_widths(list: &DrawList, height: f64, text_size: f64) -> [f64; 2] {
     let labels = labels(list.range, bar_height(height, text_size), text_size);
     if labels.is_empty() {
-        return 0.0;
+        return [0.0; 2];
     }
-    let no_value = list.gap.map(|_| NO_VALUE);
-    let texts = labels.iter().map(|label| label.text.as_str()).chain(no_value);
-    let widest = texts.fold(0.0_f64, |widest, text| widest.max(text_width(text, text_size)));
-    (before_labels(text_size) + widest).ceil()
+    let widest = labels.iter().fold(0.0_f64, |widest, label| widest.max(text_width(&label.text, text_size)));
+    let no_value = if list.gap.is_some() { text_width(NO_VALUE, text_size) } else { 0.0 };
+    [widest.max(no_value), widest].map(|widest| (before_labels(text_size) + widest).ceil())
 }
 
-/// Draws the bar at the left of a rectangle and its labels at the right, all inside, and the color of gaps, where there are any,
-/// right below the rectangle. Labels that are too wide are left out, and so is everything where the rectangle is too low for the
-/// labels of both ends.
+/// Draws the bar at the left of a rectangle and its labels at the right, all inside, and the color of gaps, where there are any and
+/// there is room to name them, right below the rectangle. Labels that are too wide are left out, and so is everything where the
+/// rectangle is too low for the labels of both ends.
 pub(super) fn draw_legend(pixmap: &mut PixmapMut<'_>, rectangle: &Rectangle, list: &DrawList, text_size: f64) {
     let labels = labels(list.range, bar_height(rectangle.height, text_size), text_size);
     // Whole pixels keep edges sharp.
@@ -79,24 +79,23 @@ pub(super) fn draw_legend(pixmap: &mut PixmapMut<'_>, rectangle: &Rectangle, lis
             }
         }
     }
-    if let Some(color) = list.gap {
+    let labels_start = left + before_labels(text_size);
+    let fits = |text: &str| labels_start + text_width(text, text_size) <= (rectangle.x + rectangle.width).ceil();
+    if let Some(color) = list.gap.filter(|_| fits(NO_VALUE)) {
         let upper = bottom + (GAP_BELOW * text_size).round();
         let lower = upper + (GAP_HEIGHT * text_size).round();
         fill(pixmap, [left, upper, right, lower], style::INK);
         fill(pixmap, [inner_left, upper + frame, inner_right, lower - frame], color);
-        let start = left + before_labels(text_size);
-        if start + text_width(NO_VALUE, text_size) <= (rectangle.x + rectangle.width).ceil() {
-            let baseline = 0.5 * (upper + lower + capital_height(text_size));
-            draw_text(pixmap, NO_VALUE, start, baseline, text_size, Anchor::Start, style::INK);
-        }
+        let baseline = 0.5 * (upper + lower + capital_height(text_size));
+        draw_text(pixmap, NO_VALUE, labels_start, baseline, text_size, Anchor::Start, style::INK);
     }
-    let (mark, start) = (right + (MARK * text_size).round(), left + before_labels(text_size));
+    let mark = right + (MARK * text_size).round();
     for Label { place, text } in labels {
         let y = at(place);
         fill(pixmap, [right, y, mark, y + frame], style::INK);
-        if start + text_width(&text, text_size) <= (rectangle.x + rectangle.width).ceil() {
+        if fits(&text) {
             let baseline = y + 0.5 * (frame + capital_height(text_size));
-            draw_text(pixmap, &text, start, baseline, text_size, Anchor::Start, style::INK);
+            draw_text(pixmap, &text, labels_start, baseline, text_size, Anchor::Start, style::INK);
         }
     }
 }

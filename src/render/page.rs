@@ -2,7 +2,7 @@
 
 use super::camera::{Camera, Rectangle, View};
 use super::draw_list::DrawList;
-use super::legend::{draw_legend, legend_width};
+use super::legend::{draw_legend, legend_widths};
 use super::png::Picture;
 use super::raster::paint;
 use super::style;
@@ -45,9 +45,10 @@ impl Text {
 
     /// The width that a color bar takes; none where the picture is too small for one.
     pub(super) fn bar(&self, list: &DrawList, width: f64, height: f64) -> f64 {
-        let inner = legend_width(list, height - 2.0 * ABOVE * self.size, self.size);
-        let bar = (inner + 2.0 * BESIDE * self.size).round();
-        if bar > WIDEST * width || height < LOWEST * self.size { 0.0 } else { bar }
+        let inner = legend_widths(list, height - 2.0 * ABOVE * self.size, self.size);
+        let bars = inner.map(|inner| (inner + 2.0 * BESIDE * self.size).round());
+        let fitting = bars.into_iter().find(|&bar| bar <= WIDEST * width && height >= LOWEST * self.size);
+        fitting.unwrap_or(0.0)
     }
 }
 

@@ -80,8 +80,10 @@ impl Scene {
         let (difference, largest) = self.difference(before, after, draw.missing)?;
         let largest = options.largest_difference.unwrap_or(largest);
         let change = options.difference(if largest > 0.0 { Some([-largest, largest]) } else { None });
-        let lists =
+        let mut lists =
             [self.draw_list(before, &draw)?, self.draw_list(after, &draw)?, self.draw_list(&difference, &change)?];
+        // The first two share a bar.
+        lists[1].gap = lists[1].gap.or(lists[0].gap);
 
         let (width, height) = (f64::from(picture.width), f64::from(picture.height));
         let text = Text::for_picture(width, height);

@@ -13,19 +13,27 @@ struct Block {
 
 /// Makes sure that `bytes` can be had on top of what is in use: memory grows by so much, or nothing changes.
 ///
-/// The memory is taken in one piece and given back at once. The allocator of WebAssembly keeps it, as memory never shrinks, and
-/// cuts what is asked for next from it.
+/// The memory is taken in one piece, or in a few where one cannot be so large, and given back at once. The allocator of WebAssembly
+/// keeps it, as memory never shrinks, and cuts what is asked for next from it.
 ///
 /// # Errors
 /// `OutOfMemory` with the bytes that were asked for.
 #[inline(never)]
 pub(crate) fn ensure(bytes: u64) -> Result<(), OutOfMemory> {
-    let mut room: Vec<Block> = Vec::new();
-    let blocks = usize::try_from(bytes.div_ceil(size_of::<Block>() as u64));
-    let reserved = blocks.is_ok_and(|blocks| room.try_reserve_exact(blocks).is_ok());
+    // No allocation can be larger than half of the address space, which WebAssembly can have all of.
+    const LARGEST: u64 = isize::MAX as u64 / 2 / size_of::<Block>() as u64;
+    let mut rooms: [Vec<Block>; 4] = [const { Vec::new() }; 4];
+    let mut blocks = bytes.div_ceil(size_of::<Block>() as u64);
+    for room in &mut rooms {
+        let next = blocks.min(LARGEST);
+        if room.try_reserve_exact(next as usize).is_err() {
+            return Err(OutOfMemory { bytes });
+        }
+        blocks -= next;
+    }
     // An allocation that nothing reads could be left out by the compiler.
-    core::hint::black_box(&room);
-    if reserved { Ok(()) } else { Err(OutOfMemory { bytes }) }
+    core::hint::black_box(&rooms);
+    if blocks == 0 { Ok(()) } else { Err(OutOfMemory { bytes }) }
 }
 
 /// An empty vector with room for `count` elements.
@@ -48,4 +56,23 @@ pub(crate) fn filled<T: Clone>(element: T, count: usize) -> Result<Vec<T>, OutOf
     let mut vector = with_room(count)?;
     vector.resize(count, element);
     Ok(vector)
+}
+
+/// Makes room for `extra` more elements, by doubling, so that pushing them takes no memory.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes of the vector that cannot be had.
+#[inline]
+pub(crate) fn make_room<T>(vector: &mut Vec<T>, extra: usize) -> Result<(), OutOfMemory> {
+    if vector.capacity() - vector.len() >= extra { Ok(()) } else { grow(vector, extra) }
+}
+
+#[cold]
+#[inline(never)]
+fn grow<T>(vector: &mut Vec<T>, extra: usize) -> Result<(), OutOfMemory> {
+    let capacity = (vector.len() + extra).max(2 * vector.capacity()).max(64);
+    // The old elements are there beside the new ones until they have moved.
+    let bytes = (capacity as u64).saturating_mul(size_of::<T>() as u64);
+    ensure(bytes)?;
+    vector.try_reserve_exact(capacity - vector.len()).map_err(|_| OutOfMemory { bytes })
 }

@@ -19,7 +19,7 @@ use morse_smooth::smooth::{
 };
 use serde_json::Value;
 
-use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference, persistence, simplify};
+use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference, level_sets, persistence, simplify};
 
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("MORSE_SMOOTH_DATA")
@@ -360,4 +360,27 @@ fn every_file_agrees_with_the_reference() {
     assert!(!files.is_empty());
     let failures: Vec<String> = files.iter().flat_map(|(file, expected)| check_file(&folder, file, expected)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn level_sets_of_a_terrain_have_no_segments_of_length_0() {
+    let Some(folder) = folder() else {
+        say("NOT RUN: the data sets are not there; MORSE_SMOOTH_DATA names their folder");
+        return;
+    };
+    // Heights in whole metres, and a level every 20 m.
+    let bytes = std::fs::read(folder.join("jacksboro_dem.ply")).expect("a terrain");
+    let file = load(&bytes, &LoadOptions::default()).expect("a terrain");
+    let (_, heights) = file.fields.first().expect("heights");
+    let range = value_range(file.mesh.connectivity(), heights).expect("a field");
+    let first = (range.min / 20.0).ceil() as i64;
+    let levels: Vec<f64> = (first..=(range.max / 20.0) as i64).map(|k| 20.0 * k as f64).collect();
+    let sets = level_sets(&file.mesh, heights, &levels).expect("a field");
+    assert!(sets.levels.len() > 1_000, "{}", sets.levels.len());
+    for k in 0..sets.levels.len() {
+        let line = 3 * sets.offsets[k] as usize..3 * sets.offsets[k + 1] as usize;
+        let points: Vec<&[f64]> = sets.points[line].chunks_exact(3).collect();
+        let last = if sets.closed[k] { points.len() } else { points.len() - 1 };
+        assert!(points.len() >= 2 && (0..last).all(|i| points[i] != points[(i + 1) % points.len()]), "line {k}");
+    }
 }

@@ -49,6 +49,7 @@ mod smooth_iterative;
 mod smooth_missing;
 mod smooth_stopped;
 mod solve;
+mod solve_watch;
 mod stopping;
 mod support;
 #[cfg(feature = "render")]

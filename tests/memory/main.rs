@@ -11,6 +11,7 @@ mod io;
 mod mesh;
 mod operators;
 mod smooth;
+mod solve;
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::Cell;
@@ -23,6 +24,7 @@ thread_local! {
     static ALLOWED: Cell<i64> = const { Cell::new(0) };
     static EXCESS: Cell<i64> = const { Cell::new(0) };
     static PEAK: Cell<i64> = const { Cell::new(0) };
+    static LIMIT: Cell<i64> = const { Cell::new(i64::MAX) };
 }
 
 /// The alignment that only `ensure` asks for.
@@ -35,9 +37,18 @@ fn took(bytes: i64) {
     EXCESS.set(EXCESS.get().max(live - ALLOWED.get()));
 }
 
+/// Whether so much is not to be had. Small things are.
+fn is_too_much(bytes: i64, align: usize) -> bool {
+    let spare = if align == MARK || bytes > SMALL / 16 { 0 } else { SMALL };
+    LIVE.get() + bytes > LIMIT.get().saturating_add(spare)
+}
+
 // SAFETY: every call goes to the system's allocator as it is; the counts are numbers of the thread, without allocation.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if is_too_much(layout.size() as i64, layout.align()) {
+            return core::ptr::null_mut();
+        }
         if layout.align() == MARK {
             ALLOWED.set(ALLOWED.get().max(LIVE.get() + layout.size() as i64));
         } else {
@@ -56,6 +67,9 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        if is_too_much(size as i64, layout.align()) {
+            return core::ptr::null_mut();
+        }
         // The old and the new place can exist side by side.
         took(size as i64);
         LIVE.set(LIVE.get() - layout.size() as i64);
@@ -98,5 +112,14 @@ pub fn check<T>(what: &str, times: f64, call: impl FnOnce() -> T) -> T {
     assert!(excess <= SMALL, "{what}: {excess} bytes beyond the {ensured} made sure of (peak {peak})");
     let most = times * peak as f64 + SMALL as f64;
     assert!(ensured as f64 <= most, "{what}: {ensured} bytes made sure of where {peak} were taken");
+    result
+}
+
+/// Runs a call that can have no more than so many bytes on top of what is in use. An allocation that fails without the call
+/// being ready for it ends the whole test.
+pub fn limited<T>(bytes: i64, call: impl FnOnce() -> T) -> T {
+    LIMIT.set(LIVE.get().saturating_add(bytes));
+    let result = call();
+    LIMIT.set(i64::MAX);
     result
 }

@@ -70,7 +70,7 @@ fn meshes() {
         }
     }
     let soup = vec![0.5; 90_000];
-    check("a soup that fails", 100.0, || TriMesh::from_soup(soup).unwrap());
+    check("a soup of points at one place", 1.6, || TriMesh::from_soup(soup).unwrap());
 }
 
 #[test]

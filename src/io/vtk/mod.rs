@@ -6,8 +6,8 @@ use data::{ArrayType, Data};
 
 use super::assembly::{Assembly, check_count, check_length};
 use super::cursor::NumberType;
+use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{Scanner, excerpt, parse_count, push, reserve};
-use super::{MeshData, MeshFormat};
 use crate::error::ParseError;
 use crate::support::memory;
 

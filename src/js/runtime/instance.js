@@ -29,9 +29,10 @@ export class Instance {
       result = action(this.#glue);
     } catch (thrown) {
       if (thrown instanceof MorseSmoothError) throw thrown;
+      // It may have been lost already, to a call from within a callback.
+      this.#refuseIfLost();
       throw reported(thrown) ?? this.#lose(thrown);
     }
-    // It may be lost to a call from within a callback.
     this.#refuseIfLost();
     return result;
   }

@@ -63,8 +63,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
         |edge: u32| triangulation.ends(edge).filter(|&ends| ends != before[edge as usize] && ends[0] != ends[1]);
     let moved_count = (0..before.len() as u32).filter_map(new_ends).count();
     let most_edges = before.len() + moved_count;
-    let assembly = symmetric_bytes(mesh.vertex_count(), most_edges);
-    memory::ensure((size_of::<Moved>() * moved_count + 16 * most_edges) as u64 + assembly)?;
+    memory::ensure((size_of::<Moved>() * moved_count) as u64)?;
     let mut moved = Vec::with_capacity(moved_count);
     for edge in 0..before.len() as u32 {
         if let Some(ends) = triangulation.ends(edge)
@@ -77,6 +76,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
         }
     }
     drop(triangulation);
+    memory::ensure(16 * most_edges as u64 + symmetric_bytes(mesh.vertex_count(), most_edges))?;
     // The id settles the order of edges with the same ends, and with it the rounding of their sum.
     moved.sort_unstable_by_key(|moved| (moved.ends, moved.edge));
 

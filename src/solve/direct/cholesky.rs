@@ -146,7 +146,7 @@ const TICKS_PER_UNKNOWN: u64 = 10;
 /// What [`nested_dissection`] is expected to take: all entries are looked at on each level of dissection.
 fn ordering_ticks(pattern: &SparsityPattern) -> u64 {
     let unknowns = pattern.major_dim() as u64;
-    (20 * unknowns + 5 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
+    (150 * unknowns + 4 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
 }
 
 /// What the symbolic analysis is expected to take.
@@ -234,8 +234,12 @@ impl<T: Scalar> CholeskyFactor<T> {
             return Err(SolveError::NonFiniteEntry { row: place % n });
         }
         self.check_done()?;
-        // The solutions, one block of right-hand sides in the order of elimination, and sums for a front's columns.
-        let bytes = size_of_val(right_hand_sides) + 2 * size_of::<T::Block>() * n.min(right_hand_sides.len());
+        // The solutions, the right-hand sides at hand in the order of elimination, and sums for the columns of a front.
+        let symbolic = &self.analysis.shared.symbolic;
+        let widest = (0..symbolic.fronts()).map(|s| symbolic.columns(s).len()).max().unwrap_or(0);
+        let few = right_hand_sides.len() / n <= T::Block::LANES / 4;
+        let each = if few { size_of::<T>() } else { size_of::<T::Block>() };
+        let bytes = size_of_val(right_hand_sides) + each * n + size_of::<T::Block>() * (widest + T::Block::LANES);
         memory::ensure(bytes as u64)?;
         let mut solutions = vec![T::Wide::default(); right_hand_sides.len()];
         let block = n * T::Block::LANES;
@@ -307,6 +311,7 @@ fn check_symmetric(pattern: &SparsityPattern) -> Result<(), SolveError> {
     if expected != actual {
         return Err(SolveError::DimensionMismatch { expected, actual });
     }
+    memory::ensure((size_of::<usize>() * expected) as u64)?;
     // Reading the columns in order meets the entries of every row in order too: one step in each row's own list.
     let mut next = pattern.major_offsets()[..expected].to_vec();
     let (offsets, indices) = (pattern.major_offsets(), pattern.minor_indices());

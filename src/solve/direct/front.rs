@@ -1,8 +1,8 @@
 //! Dense work on one front: its layout in memory, and the elimination of its columns.
 //!
 //! A front is the lower triangle of a symmetric matrix whose first columns are eliminated. Its rows are cut into tiles of
-//! [`LaneBlock::LANES`] rows; a tile stores its columns one after the other, a lane block ([`LaneBlock`]) each. So the innermost loop, which
-//! multiplies two tiles, reads both of them straight through memory, and nothing is ever packed for it. Three parts:
+//! [`LaneBlock::LANES`] rows; a tile stores its columns one after the other, a lane block each. So the innermost loop,
+//! which multiplies two tiles, reads both of them straight through memory, and nothing is ever packed for it. Three parts:
 //!
 //! - the *pivot rows*: tile t holds the columns up to the end of its diagonal block;
 //! - the *rows below*, all pivot columns each;

@@ -15,7 +15,7 @@ const DIVERGED: f64 = 1e8;
 /// An unknown in one iteration, with a product with the matrix of an operator on a mesh and without the preconditioner.
 const TICKS_PER_UNKNOWN: u64 = 40;
 /// Vectors that are in use at once, those of a product and of a preconditioner included.
-const VECTORS: usize = 8;
+const VECTORS: usize = 12;
 
 /// When [`conjugate_gradient`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,6 +7,7 @@
 use super::rows::{Rows, SymmetricRows};
 use crate::Watch;
 use crate::error::SolveError;
+use crate::support::memory;
 
 /// An unknown i is stiff where a_ij² ≥ this · a_ii a_jj for a neighbour j with a_jj ≤ a_ii. Regular meshes have 1/36, long
 /// rows of equal couplings at most 1/4, needles up to 1.
@@ -15,6 +16,9 @@ const STIFF: f64 = 0.3;
 const MOST_NEIGHBOURS: usize = 12;
 /// Rows longer than this are not searched for entries to change.
 const LONG_ROW: usize = 64;
+
+/// What rows that change take for each entry of the matrix, with the matrix that is left.
+const BYTES_PER_ENTRY: usize = 120;
 
 /// An entry of the matrix, while stiff unknowns are sought.
 const TICKS_PER_ENTRY: u64 = 15;
@@ -54,6 +58,9 @@ impl Elimination {
         elimination.weights.offsets.push(0);
         let mut open: Vec<u32> = (0..n as u32).filter(|&i| rows.is_stiff(i as usize)).collect();
         watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
+        if !open.is_empty() {
+            memory::ensure((BYTES_PER_ENTRY * matrix.rows.values.len()) as u64)?;
+        }
         while !open.is_empty() {
             let mut next = Vec::new();
             for i in open {

@@ -74,13 +74,16 @@ impl Rows {
 
     /// The product with `right`; its columns come in no order.
     #[inline(never)]
-    pub(super) fn times(&self, right: &Self, watch: &Watch<'_>) -> Result<Self, Cancelled> {
+    pub(super) fn times(&self, right: &Self, watch: &Watch<'_>) -> Result<Self, SolveError> {
         let mut product = Self { offsets: vec![0], width: right.width, ..Self::default() };
         let mut places = vec![0_u32; right.width];
         for i in 0..self.height() {
             let (start, mut pairs) = (product.columns.len(), 0);
             for (k, scale) in self.row(i) {
-                pairs += right.range(k).len();
+                let others = right.range(k).len();
+                pairs += others;
+                memory::make_room(&mut product.columns, others)?;
+                memory::make_room(&mut product.values, others)?;
                 for (j, value) in right.row(k) {
                     let place = places[j] as usize;
                     // A place counts where it is of this row and holds this column: nothing needs clearing between rows.

@@ -5,7 +5,7 @@ use super::edge_cut::{EdgeCut, EdgeRefiner};
 use super::graph::Graph;
 use super::refine::{LEFT, RIGHT};
 use crate::Watch;
-use crate::error::Cancelled;
+use crate::error::{Cancelled, SolveError};
 
 /// Graphs up to this size are cut directly: larger ones give no better cuts, but take longer.
 const COARSEST: usize = 40;
@@ -18,7 +18,7 @@ const STRIDE: usize = 104_729;
 
 /// Cuts a connected graph in two: the side of every vertex.
 #[inline(never)]
-pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner, watch: &Watch<'_>) -> Result<Vec<u32>, Cancelled> {
+pub(super) fn bisect(graph: &Graph, refiner: &mut EdgeRefiner, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
     let total: u32 = graph.weights.iter().sum();
     // Heavier vertices could not be balanced.
     let most = (total / (COARSEST as u32 / 2)).max(2);

@@ -4,15 +4,16 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::bisection::bisect;
 use super::edge_cut::EdgeRefiner;
-use super::graph::Graph;
+use super::graph::{Graph, bytes};
 use super::ids::{NONE, filled};
 use super::leaf::LeafOrder;
 use super::max_flow::MaxFlow;
 use super::minimum_degree::order_graph;
 use super::refine::{Cut, LABELS, Refiner, SEPARATOR};
 use crate::Watch;
-use crate::error::{Cancelled, SolveError};
+use crate::error::{OutOfMemory, SolveError};
 use crate::support::counting_sort::grouped;
+use crate::support::memory;
 
 /// Parts up to this size are ordered by minimum degree. Smaller ones save some more entries, but hardly any operations.
 const LEAF: usize = 120;
@@ -22,6 +23,9 @@ const LARGE: usize = 3000;
 const DEPTH: usize = 2;
 /// Passes of the local search. Further ones hardly change anything.
 const PASSES: usize = 2;
+
+/// What is kept for every unknown besides the graphs.
+const BYTES_PER_UNKNOWN: u64 = 140;
 
 /// An unknown of a part that is labelled, grouped and handed down.
 const TICKS_PER_MEMBER: u64 = 40;
@@ -38,8 +42,9 @@ const TICKS_PER_LEAF: u64 = 4;
 /// ever smaller than those found from its graph.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`; `OutOfMemory`.
 pub fn nested_dissection(pattern: &SparsityPattern, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
+    memory::ensure(bytes(pattern) + BYTES_PER_UNKNOWN * pattern.major_dim() as u64)?;
     let (graph, dense) = Graph::new(pattern);
     let n = graph.len();
     let mut is_dense = vec![false; n];
@@ -108,11 +113,11 @@ struct Dissection {
 impl Dissection {
     /// Orders a small part; cuts a larger one in two and leaves these for later.
     #[inline(never)]
-    fn split(&mut self, order: &mut [u32], part: &Part, watch: &Watch<'_>) -> Result<(), Cancelled> {
+    fn split(&mut self, order: &mut [u32], part: &Part, watch: &Watch<'_>) -> Result<(), SolveError> {
         let members = &mut order[part.begin..part.end];
         if members.len() <= LEAF {
             self.leaf.order(&self.graph, members);
-            return watch.tick(TICKS_PER_LEAF * (members.len() * members.len()) as u64);
+            return Ok(watch.tick(TICKS_PER_LEAF * (members.len() * members.len()) as u64)?);
         }
         watch.tick(TICKS_PER_MEMBER * members.len() as u64)?;
         for (i, &id) in part.ids.iter().enumerate() {
@@ -121,8 +126,7 @@ impl Dissection {
         let (component_of, count) = components(&part.clusters);
         if count > 1 {
             let groups: Vec<u32> = members.iter().map(|&v| component_of[self.cluster(v)]).collect();
-            self.descend(members, part, &groups, count, count);
-            return Ok(());
+            return Ok(self.descend(members, part, &groups, count, count)?);
         }
         let sides = bisect(&part.clusters, &mut self.cluster_refiner, watch)?;
         self.base += LABELS;
@@ -138,8 +142,7 @@ impl Dissection {
             return self.order_whole(members, watch);
         }
         let groups: Vec<u32> = members.iter().map(|&v| self.labels[v as usize] - self.base).collect();
-        self.descend(members, part, &groups, 3, 2);
-        Ok(())
+        Ok(self.descend(members, part, &groups, 3, 2)?)
     }
 
     fn cluster(&self, v: u32) -> usize {
@@ -174,7 +177,14 @@ impl Dissection {
     }
 
     /// Puts the groups one behind the other, and the first `parts` of them on the stack.
-    fn descend(&mut self, members: &mut [u32], part: &Part, group_of: &[u32], count: usize, parts: usize) {
+    fn descend(
+        &mut self,
+        members: &mut [u32],
+        part: &Part,
+        group_of: &[u32],
+        count: usize,
+        parts: usize,
+    ) -> Result<(), OutOfMemory> {
         self.spare.clear();
         self.spare.extend_from_slice(members);
         let groups = grouped(group_of, count);
@@ -201,17 +211,19 @@ impl Dissection {
                     self.place[cluster as usize] = NONE;
                 }
             }
-            let clusters = part.clusters.part(&kept, weights, &mut self.place);
+            let clusters = part.clusters.part(&kept, weights, &mut self.place)?;
             let ids = kept.iter().map(|&cluster| part.ids[cluster as usize]).collect();
             self.stack.push(Part { begin: part.begin + begin, end: part.begin + end, ids, clusters });
         }
+        Ok(())
     }
 
     /// Orders a part that has no separator.
     #[inline(never)]
-    fn order_whole(&mut self, members: &mut [u32], watch: &Watch<'_>) -> Result<(), Cancelled> {
+    fn order_whole(&mut self, members: &mut [u32], watch: &Watch<'_>) -> Result<(), SolveError> {
+        memory::ensure(8 * (self.graph.len() + members.len()) as u64)?;
         let mut place = filled(self.graph.len());
-        let part = self.graph.part(members, vec![1; members.len()], &mut place);
+        let part = self.graph.part(members, vec![1; members.len()], &mut place)?;
         let old = members.to_vec();
         for (place, &new) in members.iter_mut().zip(&order_graph(&part, watch)?) {
             *place = old[new as usize];

@@ -4,14 +4,20 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::ids::{NONE, filled};
 use crate::Watch;
-use crate::error::Cancelled;
+use crate::error::{Cancelled, OutOfMemory, SolveError};
 use crate::support::counting_sort::grouped;
+use crate::support::memory;
 
 /// Neighbours of neighbours are not counted for more neighbours than this: it would take the square of the time.
 const MANY: usize = 64;
 
 /// An edge that is looked at, in a graph that does not fit the cache.
 const TICKS_PER_EDGE: u64 = 4;
+
+/// Bytes of the graph of a pattern.
+pub(super) fn bytes(pattern: &SparsityPattern) -> u64 {
+    4 * pattern.nnz() as u64 + 9 * pattern.major_dim() as u64
+}
 
 /// An undirected graph without loops, every edge stored at both ends.
 pub(super) struct Graph {
@@ -76,7 +82,7 @@ impl Graph {
     }
 
     /// The graph whose vertices are `count` clusters of this one's.
-    pub(super) fn contract(&self, cluster_of: &[u32], count: usize, watch: &Watch<'_>) -> Result<Self, Cancelled> {
+    pub(super) fn contract(&self, cluster_of: &[u32], count: usize, watch: &Watch<'_>) -> Result<Self, SolveError> {
         let members = grouped(cluster_of, count);
         let mut offsets = Vec::with_capacity(count + 1);
         let mut neighbours: Vec<u32> = Vec::new();
@@ -88,7 +94,10 @@ impl Graph {
         for cluster in 0..count {
             let (begin, mut seen) = (neighbours.len(), 4);
             for &v in members.bucket(cluster as u32) {
-                seen += self.range(v).len();
+                let edges = self.range(v).len();
+                seen += edges;
+                memory::make_room(&mut neighbours, edges)?;
+                memory::make_room(&mut edge_weights, edges)?;
                 weights[cluster] += self.weights[v as usize];
                 for edge in self.range(v) {
                     let other = cluster_of[self.neighbours[edge] as usize] as usize;
@@ -113,7 +122,7 @@ impl Graph {
     }
 
     /// The graph of some of the vertices, in the given order with the given weights. `place` is scratch for every vertex, all `NONE`.
-    pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Self {
+    pub(super) fn part(&self, members: &[u32], weights: Vec<u32>, place: &mut [u32]) -> Result<Self, OutOfMemory> {
         for (new, &old) in members.iter().enumerate() {
             place[old as usize] = new as u32;
         }
@@ -122,6 +131,10 @@ impl Graph {
         let mut edge_weights = Vec::new();
         offsets.push(0);
         for &old in members {
+            memory::make_room(&mut neighbours, self.range(old).len())?;
+            if !self.edge_weights.is_empty() {
+                memory::make_room(&mut edge_weights, self.range(old).len())?;
+            }
             for edge in self.range(old) {
                 let new = place[self.neighbours[edge] as usize];
                 if new != NONE {
@@ -136,7 +149,7 @@ impl Graph {
         for &old in members {
             place[old as usize] = NONE;
         }
-        Self { offsets, neighbours, weights, edge_weights }
+        Ok(Self { offsets, neighbours, weights, edge_weights })
     }
 
     /// Clusters of up to `most` vertices: a vertex and those of its neighbours that share the most neighbours with it. Returns

@@ -4,10 +4,14 @@ use super::graph::Graph;
 use super::ids::{NONE, filled};
 use super::refine::{Cut, LEFT, RIGHT, SEPARATOR};
 use crate::Watch;
-use crate::error::Cancelled;
+use crate::error::{Cancelled, OutOfMemory, SolveError};
+use crate::support::memory;
 
 /// An edge of the band, each time that its shortest paths are sought.
 const TICKS_PER_EDGE: u64 = 12;
+
+/// What is kept for every vertex of the band besides its neighbours, while lists grow, too.
+const BYTES_PER_VERTEX: usize = 90;
 
 /// The ends of paths.
 const SOURCE: u32 = u32::MAX - 1;
@@ -61,8 +65,8 @@ impl MaxFlow {
         cut: &mut Cut,
         depth: usize,
         watch: &Watch<'_>,
-    ) -> Result<(), Cancelled> {
-        self.collect(graph, labels, base, cut, depth);
+    ) -> Result<(), SolveError> {
+        self.collect(graph, labels, base, cut, depth)?;
         self.saturate(watch)?;
         // What the sources still reach lies left of the separator.
         let mut new = Cut { sizes: cut.sizes, separator: Vec::new() };
@@ -97,7 +101,14 @@ impl MaxFlow {
         }
     }
 
-    fn collect(&mut self, graph: &Graph, labels: &[u32], base: u32, cut: &Cut, depth: usize) {
+    fn collect(
+        &mut self,
+        graph: &Graph,
+        labels: &[u32],
+        base: u32,
+        cut: &Cut,
+        depth: usize,
+    ) -> Result<(), OutOfMemory> {
         self.band.clear();
         self.band.extend_from_slice(&cut.separator);
         for (i, &v) in self.band.iter().enumerate() {
@@ -107,7 +118,9 @@ impl MaxFlow {
         for _ in 0..depth {
             let end = self.band.len();
             for i in begin..end {
-                for &u in graph.of(self.band[i]) {
+                let around = graph.of(self.band[i]);
+                memory::make_room(&mut self.band, around.len())?;
+                for &u in around {
                     if self.slots[u as usize] == NONE && labels[u as usize].wrapping_sub(base) < SEPARATOR {
                         self.slots[u as usize] = self.band.len() as u32;
                         self.band.push(u);
@@ -117,6 +130,7 @@ impl MaxFlow {
             begin = end;
         }
         let n = self.band.len();
+        memory::ensure((BYTES_PER_VERTEX * n) as u64)?;
         self.is_source.clear();
         self.is_sink.clear();
         self.is_source.resize(n, false);
@@ -125,7 +139,9 @@ impl MaxFlow {
         self.neighbours.clear();
         self.offsets.push(0);
         for i in 0..n {
-            for &u in graph.of(self.band[i]) {
+            let around = graph.of(self.band[i]);
+            memory::make_room(&mut self.neighbours, around.len())?;
+            for &u in around {
                 let slot = self.slots[u as usize];
                 if slot == NONE {
                     self.is_source[i] |= labels[u as usize] == base + LEFT;
@@ -140,6 +156,7 @@ impl MaxFlow {
             list.clear();
             list.resize(n, NONE);
         }
+        Ok(())
     }
 
     /// Blocking flows on shortest paths until there is none (\[Dinic70\]).

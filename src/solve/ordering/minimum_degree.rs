@@ -6,7 +6,12 @@ use super::graph::Graph;
 use super::ids::NONE;
 use super::queue::BucketQueue;
 use crate::Watch;
-use crate::error::{Cancelled, SolveError};
+use crate::error::SolveError;
+use crate::support::memory;
+
+/// What the quotient graph takes for each vertex, and for each edge at each of its ends.
+const BYTES_PER_VERTEX: usize = 180;
+const BYTES_PER_EDGE: usize = 8;
 
 /// A pivot, and a variable of its clique.
 const TICKS_PER_PIVOT: u64 = 200;
@@ -19,8 +24,9 @@ const TICKS_PER_VARIABLE: u64 = 60;
 /// The pattern must be square and symmetric; the diagonal does not matter.
 ///
 /// # Errors
-/// `Cancelled`.
+/// `Cancelled`; `OutOfMemory`.
 pub fn minimum_degree(pattern: &SparsityPattern, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
+    memory::ensure(super::graph::bytes(pattern))?;
     let (graph, dense) = Graph::new(pattern);
     let mut order = order_graph(&graph, watch)?;
     // The unknowns of very high degree have lost their edges; they go to the end.
@@ -34,7 +40,8 @@ pub fn minimum_degree(pattern: &SparsityPattern, watch: &Watch<'_>) -> Result<Ve
 }
 
 /// Orders the vertices of a compact graph.
-pub(super) fn order_graph(graph: &Graph, watch: &Watch<'_>) -> Result<Vec<u32>, Cancelled> {
+pub(super) fn order_graph(graph: &Graph, watch: &Watch<'_>) -> Result<Vec<u32>, SolveError> {
+    memory::ensure((BYTES_PER_VERTEX * graph.len() + BYTES_PER_EDGE * graph.neighbours.len()) as u64)?;
     let mut graph = QuotientGraph::new(graph);
     while let Some(pivot) = graph.queue.pop() {
         graph.eliminate(pivot);

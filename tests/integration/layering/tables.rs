@@ -9,6 +9,8 @@ pub(crate) struct Rules {
     pub orders: &'static [(&'static str, &'static [&'static [&'static str]])],
     /// Files that may use words of [`super::words::NOT_IN_THE_CORE`].
     pub platform: &'static [&'static str],
+    /// Files that may keep something for a whole thread: the memory set aside, which changes no result.
+    pub state: &'static [&'static str],
 }
 
 pub(crate) const RULES: Rules = Rules {
@@ -25,7 +27,17 @@ pub(crate) const RULES: Rules = Rules {
         ("render", &["error", "support", "mesh", "field"]),
     ],
     orders: &[
-        ("io", &[&["scan"], &["cursor"], &["assembly"], &["obj", "off", "ply", "vtk", "table"], &["write"], &["mod"]]),
+        (
+            "io",
+            &[
+                &["mesh_data", "scan"],
+                &["cursor"],
+                &["assembly"],
+                &["obj", "off", "ply", "vtk", "table"],
+                &["write"],
+                &["mod"],
+            ],
+        ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
         ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
@@ -35,7 +47,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["ids", "permutation"],
                 &["graph", "queue"],
                 &["leaf", "refine"],
-                &["edge_cut", "flow", "minimum_degree"],
+                &["edge_cut", "max_flow", "minimum_degree"],
                 &["bisection"],
                 &["dissection"],
                 &["mod"],
@@ -71,7 +83,7 @@ pub(crate) const RULES: Rules = Rules {
         (
             "field",
             &[
-                &["order", "sorting", "link"],
+                &["arrays", "order", "sorting", "link"],
                 &["scalar_field", "sweep"],
                 &["critical", "steepest"],
                 &["delta_hierarchy", "saddles", "level"],
@@ -120,4 +132,5 @@ pub(crate) const RULES: Rules = Rules {
         ("wasm", &[&["shared"], &["core", "snapshot"], &["mod"]]),
     ],
     platform: &["mesh/shapes.rs"],
+    state: &["wasm/shared/reserve.rs"],
 };

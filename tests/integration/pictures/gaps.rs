@@ -233,6 +233,19 @@ fn the_bar_says_what_grey_means() {
     let lowest = bar.iter().filter(|[x, _]| *x > 400).map(|place| place[1]).max().unwrap();
     assert!(patch.len() > 60, "{} pixels", patch.len());
     assert!(patch.iter().all(|&[x, y]| x > 400 && y > lowest), "{patch:?}");
+    // Where there is no room for the words, the bar is as it is without gaps.
+    let narrow = SnapshotOptions { width: 250, height: 180, ..options };
+    let bar_of = |values: &[f64]| {
+        let image = draw(&mesh, values, &narrow);
+        let right = |x: &usize| *x >= 180;
+        (0..180)
+            .flat_map(|y| (0..250).filter(right).map(move |x| [x, y]))
+            .map(|[x, y]| image.at(x, y))
+            .collect::<Vec<_>>()
+    };
+    let bar = bar_of(&values);
+    assert!(bar.iter().any(|&pixel| distance(pixel, low) <= 2) && !bar.contains(&GREY));
+    assert!(bar == bar_of(&coordinate(&mesh, 0)));
     // From any side.
     let turned = draw(&mesh, &values, &from([0.0, 0.0, -1.0], options));
     assert_eq!(grey(&turned), patch);

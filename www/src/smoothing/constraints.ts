@@ -3,12 +3,15 @@ import { MorseSmoothError } from 'morse-smooth';
 import type { Constraints, PersistencePairs, TriMesh } from 'morse-smooth';
 import { short } from '../dom';
 import { thresholdOf } from '../findings';
-import { omitting } from '../gaps';
+import { onPart } from '../gaps';
 import type { Found, Settings, Unsmoothed } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
 
+/** Constraints by a rule, not as a mere list. */
+type Rules = Exclude<Constraints, ArrayLike<number>>;
+
 /** The rule in the package's terms, without stars. */
-function featuresOf(settings: Settings, values: Float64Array, pairs: PersistencePairs): Constraints {
+function featuresOf(settings: Settings, values: Float64Array, pairs: PersistencePairs): Rules {
   const { rule, delta, link, persistence, overrides, clusters, picked } = settings;
   const stars = false;
   switch (rule) {
@@ -36,12 +39,16 @@ export function findConstraints(
   values: Float64Array,
   pairs: PersistencePairs,
 ): Found {
-  const holes = omitting(values);
-  const features = new Uint32Array(mesh.constrainedVertices(values, featuresOf(settings, values, pairs), holes));
-  const all = settings.stars
-    ? mesh.constrainedVertices(values, { from: 'vertices', vertices: features, stars: true }, holes)
-    : features;
-  return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all: new Uint32Array(all) };
+  return onPart(mesh, values, ({ mesh: part, values: known, into, back }) => {
+    const rule = featuresOf(settings, values, pairs);
+    const wanted = rule.from === 'vertices' ? { ...rule, vertices: into(rule.vertices) } : rule;
+    const found = part.constrainedVertices(known, wanted);
+    const all = settings.stars
+      ? part.constrainedVertices(known, { from: 'vertices', vertices: found, stars: true })
+      : found;
+    const features = back(found);
+    return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all: back(all) };
+  });
 }
 
 const WAYS =

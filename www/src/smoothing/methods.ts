@@ -2,7 +2,7 @@
 import { Smoother } from 'morse-smooth';
 import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
 import { keptExtrema, thresholdOf } from '../findings';
-import { omitting } from '../gaps';
+import { omitting, onPart } from '../gaps';
 import type { Field } from '../gaps';
 import { rangeOf } from '../measures';
 import type { AfterReport, Found, Settings } from '../protocol';
@@ -115,14 +115,17 @@ export class Methods {
       before: this.mesh.criticalPoints(before, holes).counts,
       after: this.mesh.criticalPoints(values, holes).counts,
       lInfinity: largest / range,
-      sobolevBefore: this.mesh.smoothness(before, holes).sobolev / range ** 2,
-      sobolevAfter: this.mesh.smoothness(values, holes).sobolev / range ** 2,
+      sobolevBefore: sobolevOf(this.mesh, before) / range ** 2,
+      sobolevAfter: sobolevOf(this.mesh, values) / range ** 2,
       features: null,
       smoothing: null,
       pairsRemoved: pairs.extrema.length - keptPairs(pairs, thresholdOf(before, settings), overrides).length,
     };
   }
 }
+
+const sobolevOf = (mesh: TriMesh, values: Float64Array): number =>
+  onPart(mesh, values, (part) => part.mesh.smoothness(part.values).sobolev);
 
 /** What the report needs to know of how the field was made. */
 function nameOf({ metric, energy, lowPass }: Settings): AfterReport['settings'] {

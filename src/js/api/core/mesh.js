@@ -79,55 +79,55 @@ export class TriMesh {
   }
 
   criticalPoints(values, options) {
-    return this.#analyse('criticalPoints', values, options);
+    return analyse(this, 'criticalPoints', values, options);
   }
 
   deltaHierarchy(values, options) {
-    return this.#analyse('deltaHierarchy', values, options);
+    return analyse(this, 'deltaHierarchy', values, options);
   }
 
   levelSets(values, levels, options) {
-    return this.#analyse('levelSets', values, options, toLevels(levels, this.vertexCount));
+    return analyse(this, 'levelSets', values, options, toLevels(levels, this.vertexCount));
   }
 
   bands(values, levels, options) {
-    return this.#analyse('bands', values, options, toLevels(levels, this.vertexCount));
+    return analyse(this, 'bands', values, options, toLevels(levels, this.vertexCount));
   }
 
   persistence(values, options) {
-    return this.#analyse('persistence', values, options);
+    return analyse(this, 'persistence', values, options);
   }
 
   persistenceCurve(values, options) {
-    return this.#analyse('persistenceCurve', values, options);
+    return analyse(this, 'persistenceCurve', values, options);
   }
 
   simplify(values, options) {
     const settings = toOptions(options);
     const keep = settings?.keep;
     if (keep !== undefined && keep !== null) settings.keep = toVertices(keep, 'keep', this.vertexCount);
-    return this.#analyse('simplify', values, settings);
+    return analyse(this, 'simplify', values, settings);
   }
 
   morseComplex(values, options) {
-    return this.#analyse('morseComplex', values, options);
+    return analyse(this, 'morseComplex', values, options);
   }
 
   morseHierarchy(values, options) {
-    return this.#analyse('morseHierarchy', values, options);
+    return analyse(this, 'morseHierarchy', values, options);
   }
 
   basins(values, options) {
-    return this.#analyse('basins', values, options);
+    return analyse(this, 'basins', values, options);
   }
 
   constrainedVertices(values, constraints, options) {
     const numbers = toNumbers(values, 'values');
-    return this.#watch('constrainedVertices', options, numbers, toConstraints(constraints, this.vertexCount));
+    return watch(this, 'constrainedVertices', options, numbers, toConstraints(constraints, this.vertexCount));
   }
 
   smoothness(values, options) {
-    return this.#analyse('smoothness', values, options);
+    return analyse(this, 'smoothness', values, options);
   }
 
   laplacian(options) {
@@ -143,15 +143,17 @@ export class TriMesh {
   free() {
     handleOf(this).free();
   }
+}
 
-  /** Reads a field by a method of the raw mesh. */
-  #analyse(method, values, options, ...more) {
-    const settings = toOptions(options);
-    return this.#watch(method, settings, toNumbers(values, 'values'), ...more);
-  }
+// Functions, not private methods: a mesh that was read from a file or cut out of another is not made by the constructor.
 
-  /** Calls a method of the raw mesh whose last argument are options that may have `onProgress`. */
-  #watch(method, options, ...given) {
-    return watched(toOptions(options), (settings) => handleOf(this).use((raw) => raw[method](...given, settings)));
-  }
+/** Reads a field by a method of the raw mesh. */
+function analyse(mesh, method, values, options, ...more) {
+  const settings = toOptions(options);
+  return watch(mesh, method, settings, toNumbers(values, 'values'), ...more);
+}
+
+/** Calls a method of the raw mesh whose last argument are options that may have `onProgress`. */
+function watch(mesh, method, options, ...given) {
+  return watched(toOptions(options), (settings) => handleOf(mesh).use((raw) => raw[method](...given, settings)));
 }
