@@ -22,7 +22,7 @@ const MASK: u64 = (1 << DIGIT) - 1;
 pub(super) fn sort_by_key(ids: &mut Vec<u32>, key: &dyn Fn(u32) -> u64, watch: &Watch<'_>) -> Result<(), FieldError> {
     watch.tick(30 * ids.len() as u64)?;
     let mut keyed: Vec<(u64, u32)> = collected(ids.len(), ids.iter().map(|&id| (key(id), id)))?;
-    let mut counts = vec![[0_u32; 1 << DIGIT]; DIGITS];
+    let mut counts = filled([0_u32; 1 << DIGIT], DIGITS)?;
     for &(key, _) in &keyed {
         for (digit, counts) in counts.iter_mut().enumerate() {
             counts[(key >> (digit as u32 * DIGIT) & MASK) as usize] += 1;

@@ -29,7 +29,8 @@ fn run(
     channels: usize,
 ) -> morse_smooth::Result<Smoothed> {
     match method {
-        Some(energy) => smoother.interpolate(f, &InterpolateOptions { constraints, energy, channels, ..InterpolateOptions::default() }),
+        Some(energy) => smoother
+            .interpolate(f, &InterpolateOptions { constraints, energy, channels, ..InterpolateOptions::default() }),
         None => {
             let options = LeastSquaresOptions {
                 constraints,

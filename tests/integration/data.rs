@@ -370,7 +370,7 @@ fn level_sets_of_a_terrain_have_no_segments_of_length_0() {
     };
     // Heights in whole metres, and a level every 20 m.
     let bytes = std::fs::read(folder.join("jacksboro_dem.ply")).expect("a terrain");
-    let file = load(&bytes, &ReadOptions::default(), false).expect("a terrain");
+    let file = load(&bytes, &LoadOptions::default()).expect("a terrain");
     let (_, heights) = file.fields.first().expect("heights");
     let range = value_range(file.mesh.connectivity(), heights).expect("a field");
     let first = (range.min / 20.0).ceil() as i64;

@@ -13,5 +13,5 @@ fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
 #[test]
 fn readme_shows_the_example() {
     assert_eq!(blocks(README, "rust"), [EXAMPLE]);
-    assert_eq!(EXAMPLE.lines().count(), 12);
+    assert_eq!(EXAMPLE.lines().count(), 10);
 }

@@ -100,7 +100,7 @@ fn named_extrema_stay_and_no_others() {
         let n = mesh.vertex_count();
         for seed in 0..6_u64 {
             for values in [noise(n, seed), tied(n, seed, 4.0)] {
-                let mut random = shapes::Random::new(seed);
+                let mut random = Random::new(seed);
                 let diagram = persistence(&mesh, &values).unwrap();
                 let mut wanted = above(&mesh, &values, f64::INFINITY);
                 let mut others: Vec<(u32, CriticalKind)> = diagram.pairs.iter().map(|p| (p.extremum, p.kind)).collect();

@@ -2,7 +2,7 @@
 
 use morse_smooth::field::{DeltaOptions, Features, Missing, Threshold};
 use morse_smooth::mesh::{TriMesh, shapes};
-use morse_smooth::operators::{LaplacianWeights, MassScale};
+use morse_smooth::operators::MassScale;
 use morse_smooth::smooth::{
     BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, Metric,
     Operator, Smoothed, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained,
@@ -219,12 +219,12 @@ fn filling_agrees_with_dense_algebra() {
 #[test]
 fn components_without_values() {
     let (torus, sphere) = (shapes::torus(13, 10, 0.2).unwrap(), shapes::sphere(2).unwrap());
-    let mesh = together(&[torus.clone(), sphere]);
+    let mesh = together(&[torus.clone(), sphere.clone()]);
     let first = torus.vertex_count() + 1;
     let n = mesh.vertex_count();
     let f = noise(n, 2);
     let mut values = f.clone();
-    let gone: Vec<usize> = (first..first + 162).collect();
+    let gone: Vec<usize> = (first..first + sphere.vertex_count()).collect();
     gone.iter().for_each(|&v| values[v] = f64::NAN);
     let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
     let at = |unconstrained| TikhonovOptions {
@@ -248,7 +248,7 @@ fn components_without_values() {
     for v in 0..torus.vertex_count() {
         assert_eq!(kept.values[v].to_bits(), filled.values[v].to_bits());
     }
-    assert_eq!(kept.reports[0].before, kept.reports[0].before);
+    assert_eq!(kept.reports[0].before, filled.reports[0].before);
 }
 
 #[test]
@@ -285,6 +285,4 @@ fn what_missing_values_refuse() {
         let expected = if missing == Missing::Omit { "EmptyMesh" } else { "NonFiniteValue" };
         assert_eq!(code(smoother.tikhonov(&all, &at)).0, expected);
     }
-    let weights = LaplacianWeights::Cotangent;
-    assert!(weights.is_symmetric());
 }

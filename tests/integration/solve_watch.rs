@@ -19,7 +19,7 @@ use crate::support::Kind;
 
 /// L + 0.01 I of a torus.
 fn shifted_laplacian(around: u32, along: u32) -> CscMatrix<f64> {
-    let mut matrix = uniform_laplacian(&shapes::torus(around, along, 0.3).unwrap());
+    let mut matrix = uniform_laplacian(&shapes::torus(around, along, 0.3).unwrap()).unwrap();
     matrix.triplet_iter_mut().filter(|(i, j, _)| i == j).for_each(|(_, _, value)| *value += 0.01);
     matrix
 }

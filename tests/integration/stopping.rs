@@ -115,9 +115,9 @@ fn large_meshes_are_asked_about_often() {
     let field = ScalarField::new(&torus, &values).unwrap();
     for call in calls(&field) {
         let (_, heard) = fractions(&call);
-        assert!(heard.len() >= 4, "{}: {} questions", call.0, heard.len());
+        assert!(heard.len() >= 3, "{}: {} questions", call.0, heard.len());
         // The steps of a schedule are no larger than its largest share.
         let largest = heard.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        assert!(largest <= 0.6, "{}: {heard:?}", call.0);
+        assert!(largest <= 0.7, "{}: {heard:?}", call.0);
     }
 }

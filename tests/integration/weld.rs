@@ -253,7 +253,7 @@ fn fields_are_carried_along() {
         }
     }
     assert_eq!(welded.field(&[0.1, third, 0.1, 7.0, 0.1, third]).unwrap().values, [0.1, third, 7.0]);
-    assert_eq!(welded.field(&[1.0; 3]), Err(FieldError::LengthMismatch { expected: 6, actual: 3 }));
+    assert_eq!(welded.field(&[1.0; 3]), Err(FieldError::LengthMismatch { expected: 6, actual: 3, hint: "" }));
 }
 
 #[test]

@@ -269,6 +269,9 @@ describe('after a system that is too badly conditioned', () => {
   });
 });
 
+/** Each phase once: it is told again and again while it lasts. */
+const steps = (phases) => phases.filter((phase, k) => phase !== phases[k - 1]);
+
 describe('progress', () => {
   it.each([
     [{}, {}],
@@ -280,11 +283,11 @@ describe('progress', () => {
     const call = (epsilon) => {
       phases.length = 0;
       smoother.tikhonov(noise(63, 1), { epsilon, ...more });
-      return phases;
+      return steps(phases);
     };
-    expect(call(1)).toEqual(['analysis', 'factorization', 'solve', 'report', 'report']);
-    expect(call(2)).toEqual(['factorization', 'solve', 'report', 'report']);
-    expect(call(2)).toEqual(['solve', 'report', 'report']);
+    expect(call(1)).toEqual(['analysis', 'factorization', 'solve', 'report']);
+    expect(call(2)).toEqual(['factorization', 'solve', 'report']);
+    expect(call(2)).toEqual(['solve', 'report']);
   });
 
   it('never goes back, whether there is a factor or not', () => {
@@ -302,7 +305,7 @@ describe('progress', () => {
     expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
     seen.length = 0;
     smooth(small(), noise(63, 1), { epsilon: 0.1, solver: 'cg', onProgress });
-    expect(seen.map(({ phase }) => phase)).toEqual(['solve', 'report', 'report']);
+    expect(steps(seen.map(({ phase }) => phase))).toEqual(['solve', 'report']);
   });
 
   it('carries what the callback throws, and the smoother stays usable', () => {

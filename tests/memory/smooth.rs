@@ -14,8 +14,7 @@ fn methods(channels: usize, missing: Missing) -> Vec<Method<'static>> {
     let rule = Features::Persistence(Threshold::Relative(0.2));
     let constraints = Constraints { features: rule, stars: true, unconstrained: Unconstrained::Error };
     let tikhonov = |metric| Method::Tikhonov(TikhonovOptions { metric, channels, missing, ..Default::default() });
-    let interpolate =
-        |energy| Method::Interpolate(InterpolateOptions { constraints, energy, channels, missing });
+    let interpolate = |energy| Method::Interpolate(InterpolateOptions { constraints, energy, channels, missing });
     let fit = LeastSquaresOptions { constraints, channels, missing, ..Default::default() };
     let mut all = vec![
         tikhonov(Metric::Mass),
@@ -47,9 +46,10 @@ fn smoothing() {
     ] {
         let n = mesh.vertex_count();
         for options in settings {
-            let mut smoother =
-                check(&format!("a smoother on {name}"), 2.0, || Smoother::new(&mesh, options).unwrap());
-            for (channels, missing) in [(1, Missing::Error), (5, Missing::Error), (1, Missing::Omit), (1, Missing::Fill)] {
+            let mut smoother = check(&format!("a smoother on {name}"), 2.0, || Smoother::new(&mesh, options).unwrap());
+            for (channels, missing) in
+                [(1, Missing::Error), (5, Missing::Error), (1, Missing::Omit), (1, Missing::Fill)]
+            {
                 let mut random = Random::new(2);
                 let mut values: Vec<f64> = (0..n * channels).map(|_| random.signed()).collect();
                 if missing != Missing::Error {
@@ -58,10 +58,13 @@ fn smoothing() {
                 for method in methods(channels, missing) {
                     // Once with everything to be made, once with what is kept.
                     for again in ["", " again"] {
-                        let what = format!("{}{again}, {channels} channels, {missing:?}, on {name}", method.name().name());
+                        let what =
+                            format!("{}{again}, {channels} channels, {missing:?}, on {name}", method.name().name());
                         let (outcome, usage) = crate::usage(|| smoother.apply(&values, &method, &Watch::none()));
                         outcome.unwrap();
-                        if usage.excess > crate::SMALL || usage.ensured as f64 > 2.5 * usage.peak as f64 + crate::SMALL as f64 {
+                        if usage.excess > crate::SMALL
+                            || usage.ensured as f64 > 2.5 * usage.peak as f64 + crate::SMALL as f64
+                        {
                             wrong.push(format!(
                                 "{what} ({options:?}): {} beyond {} made sure of, peak {}",
                                 usage.excess, usage.ensured, usage.peak

@@ -9,7 +9,7 @@ use crate::field::arrays::{collected, copied, filled, ranges, with_room};
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::support::random::Random;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// So many bounds may be moved in all: Lloyd's iterations can be as many as the square of the clusters, and the last ones move
 /// hardly anything.
@@ -26,6 +26,8 @@ pub(super) fn representatives(
     seed: u64,
     watch: &Watch<'_>,
 ) -> Result<Vec<u32>, FieldError> {
+    let mut plan = watch.plan(&[(Phase::Field, 2.0), (Phase::Field, 1.0), (Phase::Field, 2.0)]);
+    plan.begin(110 * field.values().len() as u64)?;
     let (line, values) = (Line::new(field, watch)?, field.values());
     let ids = line.ids();
     // Ids of equal values ascend, so the first of each value has the smallest.
@@ -34,7 +36,10 @@ pub(super) fn representatives(
     if clusters >= different {
         return Ok(collected(different, (0..ids.len()).filter(|&i| is_first(i)).map(|i| ids[i]))?);
     }
+    plan.begin(2_000 * clusters as u64)?;
     let mut bounds = seeded(&line, clusters, &mut Random::new(seed), watch)?;
+    // Nobody knows how many iterations there will be.
+    plan.begin(40 * MOVE * clusters as u64)?;
     for _ in 0..(MOST_MOVES / clusters).max(FEWEST_MOST_ITERATIONS) {
         let mut next = moved(&line, &bounds, watch)?;
         if next.len() <= clusters {
@@ -48,6 +53,7 @@ pub(super) fn representatives(
         }
         bounds = next;
     }
+    plan.finish()?;
     let nearest = bounds.windows(2).map(|ends| nearest_to_mean(&line, ends[0], ends[1]));
     Ok(collected(bounds.len(), nearest)?)
 }

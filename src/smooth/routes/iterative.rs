@@ -7,7 +7,7 @@ use super::{Answer, Task};
 use crate::error::{Cancelled, SolveError};
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
 /// refinement can solve; refinement makes up the rest.
@@ -22,6 +22,9 @@ const MOST_ROUGHLY_PRECONDITIONED: usize = 2000;
 const TIGHT: f64 = 1e-8;
 /// The relative error at which refinement stops.
 const TOLERANCE: f64 = 1e-16;
+
+/// The shares of making a preconditioner, of the solution, and of another attempt or of an eigenvalue.
+const STEPS: [(Phase, f64); 3] = [(Phase::Solve, 1.0), (Phase::Solve, 8.0), (Phase::Solve, 4.0)];
 
 /// Solves with the best preconditioner that needs little memory.
 pub(super) fn solve(task: &Task<'_>, watch: &Watch<'_>) -> Result<Answer, SolveError> {
@@ -47,23 +50,26 @@ fn answer(
 /// Solves with multigrid for the matrix, or twice for its square root; nothing where there is no multigrid for it.
 fn by_multigrid(task: &Task<'_>, watch: &Watch<'_>) -> Option<Result<Answer, SolveError>> {
     let part = task.problem.symmetric_part()?;
+    let mut plan = watch.plan(&STEPS);
     if matches!(task.problem.form, Form::Symmetric) {
-        let multigrid = match unless_cancelled(Multigrid::new(part.matrix, watch))? {
+        let made = plan.begin(0).map_err(SolveError::from).and_then(|()| Multigrid::new(part.matrix, watch));
+        let multigrid = match unless_cancelled(made)? {
             Ok(multigrid) => multigrid,
             Err(Cancelled) => return Some(Err(Cancelled.into())),
         };
-        let iterates = refined(task, &multigrid, watch);
+        let iterates = plan.begin(0).map_err(SolveError::from).and_then(|()| refined(task, &multigrid, watch));
         return Some(iterates.and_then(|iterates| answer(task, &multigrid, iterates, Route::CgMultigrid, watch)));
     }
-    let mut squared = match unless_cancelled(squared_sum(task, part, watch))? {
+    let made = plan.begin(0).map_err(SolveError::from).and_then(|()| squared_sum(task, part, watch));
+    let mut squared = match unless_cancelled(made)? {
         Ok(squared) => squared,
         Err(Cancelled) => return Some(Err(Cancelled.into())),
     };
-    let mut outcome = refined(task, &squared, watch);
+    let mut outcome = plan.begin(0).map_err(SolveError::from).and_then(|()| refined(task, &squared, watch));
     if matches!(outcome, Err(SolveError::IndefinitePreconditioner { .. } | SolveError::NotConverged { .. })) {
         // Rows of needle triangles: a small residual of the inner systems is not yet a solution.
         squared.set_tolerance(TIGHT);
-        outcome = refined(task, &squared, watch);
+        outcome = plan.begin(0).map_err(SolveError::from).and_then(|()| refined(task, &squared, watch));
     }
     Some(outcome.and_then(|iterates| answer(task, &squared, iterates, Route::CgMultigrid, watch)))
 }

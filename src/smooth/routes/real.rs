@@ -15,6 +15,9 @@ use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, gram};
 use crate::support::watch::{Phase, Watch};
 
+/// The shares of assembling the matrix and of analysing its pattern.
+const STEPS: [(Phase, f64); 2] = [(Phase::Analysis, 1.0), (Phase::Analysis, 5.0)];
+
 /// A or AᵀWA, its analysis, and the last factor.
 #[derive(Debug)]
 pub(super) struct RealRoute {
@@ -25,6 +28,8 @@ pub(super) struct RealRoute {
 
 impl RealRoute {
     pub(super) fn new(task: &Task<'_>, watch: &Watch<'_>) -> Result<Self, SolveError> {
+        let mut plan = watch.plan(&STEPS);
+        plan.begin(0)?;
         let Problem { matrix, form } = task.problem;
         let system = match form {
             Form::Symmetric => matrix.clone(),
@@ -37,6 +42,7 @@ impl RealRoute {
             }
         };
         let (pattern, values) = system.into_pattern_and_values();
+        plan.begin(0)?;
         let analysis = CholeskyAnalysis::new(pattern, watch)?;
         Ok(Self { values, factors: Factors::new(analysis) })
     }

@@ -146,7 +146,7 @@ const TICKS_PER_UNKNOWN: u64 = 10;
 /// What [`nested_dissection`] is expected to take: all entries are looked at on each level of dissection.
 fn ordering_ticks(pattern: &SparsityPattern) -> u64 {
     let unknowns = pattern.major_dim() as u64;
-    (20 * unknowns + 5 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
+    (150 * unknowns + 4 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
 }
 
 /// What the symbolic analysis is expected to take.

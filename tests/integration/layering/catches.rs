@@ -23,6 +23,7 @@ const SMALL: Rules = Rules {
         ("render", &[&["style"], &["draw_list"], &["raster"], &["scene", "mod"]]),
     ],
     platform: &["mesh/shapes.rs"],
+    state: &[],
 };
 
 /// Every file of the small crate.

@@ -35,7 +35,7 @@ pub(crate) fn strangers(files: &[(String, String)], rules: &Rules) -> Vec<String
         .orders
         .iter()
         .flat_map(|(folder, groups)| groups.iter().copied().flatten().map(move |name| format!("{folder}/{name}")));
-    let platform = rules.platform.iter().map(|path| path.trim_end_matches(".rs").to_owned());
+    let platform = rules.platform.iter().chain(rules.state).map(|path| path.trim_end_matches(".rs").to_owned());
     layers.chain(orders).chain(platform).filter(|name| !is_there(name)).collect()
 }
 
