@@ -53,8 +53,9 @@ export interface ReadFieldOptions {
 
 /**
  * Reads a field from text: numbers with blanks or line ends between them, or a column of a table with commas, semicolons or tabs.
+ * `nan` is a missing value, NaN in the field.
  *
- * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex`; `UnknownColumn`; `EmptyFile`
+ * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
  */
 export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
 

@@ -40,7 +40,8 @@ pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<JsValue, Throw
     let options =
         read("", options, |record| FieldReadOptions { format: record.choice("format"), column: column(record) })?;
     let values = io::read_field(&bytes(file)?, &options)?;
-    if let Some(vertex) = values.iter().position(|value| !value.is_finite()) {
+    // What is not a number is missing; whoever uses the field says what becomes of it.
+    if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {
         return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
     }
     Ok(array(&values)?)
