@@ -66,9 +66,9 @@ describe('reading', () => {
   });
 
   it('a field with gaps, which are NaN; what is infinite is refused', () => {
-    expect(readField(bytes('1\nnan\n2\n'))).toEqual(Float64Array.of(1, NaN, 2));
-    expect(readField(bytes('a,b\n1,NaN\n2,3\n'), { column: 'b' })).toEqual(Float64Array.of(NaN, 3));
-    expectError(() => readField(bytes('1\n-inf\n2\n')), 'NonFiniteValue', { vertex: 1 });
+    expect(readField(text('1\nnan\n2\n'))).toEqual(Float64Array.of(1, NaN, 2));
+    expect(readField(text('a,b\n1,NaN\n2,3\n'), { column: 'b' })).toEqual(Float64Array.of(NaN, 3));
+    expectError(() => readField(text('1\n-inf\n2\n')), 'NonFiniteValue', { vertex: 1 });
   });
 });
 
