@@ -99,6 +99,20 @@ describe('writing', () => {
     }
   });
 
+  it('values that are missing, where that is asked for', () => {
+    const mesh = make(square(3));
+    const fields = { f: Float64Array.from({ length: mesh.vertexCount }, (_, v) => (v === 2 ? NaN : v)) };
+    for (const format of ['ply', 'vtk'])
+      for (const binary of [false, true]) {
+        expectError(() => writeMesh(mesh, { format, fields, binary }), 'NonFiniteValue', { vertex: 2 });
+        const read = readMesh(writeMesh(mesh, { format, fields, binary, missing: 'omit' }));
+        expect(read.fields).toEqual(fields);
+        read.mesh.free();
+      }
+    expectError(() => writeMesh(mesh, { format: 'ply', missing: 'fill' }), 'InapplicableOption', { option: 'missing' });
+    mesh.free();
+  });
+
   it('refuses what does not fit', () => {
     const write = (options) => () => writeMesh(mesh(), options);
     expectError(write(), 'InvalidOption', { option: 'format' });
