@@ -66,6 +66,8 @@ export interface WriteMeshOptions {
   fields?: Record<string, Numbers>;
   /** Whether the file is binary, as PLY and VTK can be (otherwise `BinaryNotSupported`). Default `false`. */
   binary?: boolean;
+  /** What NaN in a field means: `"omit"` writes it as it is, for there is no value. Default `"error"` (`NonFiniteValue`). */
+  missing?: 'error' | 'omit';
 }
 
 /**

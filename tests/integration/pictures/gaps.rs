@@ -241,7 +241,7 @@ fn the_bar_says_what_grey_means() {
             let places = draw(&mesh, values, &narrow).places(is_meant);
             places.iter().any(|place| place[0] as f64 > 0.7 * f64::from(width))
         };
-        let is_low = |pixel| distance(pixel, low) <= 2;
+        let is_low = |pixel| distance(pixel, low) <= 8;
         let has_bar = right_of(&values, &is_low);
         assert_eq!(has_bar, right_of(&coordinate(&mesh, 0), &is_low), "{width} pixels");
         let has_words = right_of(&values, &|pixel| pixel == GREY);
