@@ -13,6 +13,7 @@ use crate::error::{Cancelled, SolveError};
 use crate::solve::matrix::ADDRESS_SPACE;
 use crate::solve::ordering::{Permutation, nested_dissection};
 use crate::support::memory;
+use crate::support::watch::Plan;
 use crate::{Phase, Watch};
 
 /// The ordering and symbolic analysis of a symmetric pattern. Cheap to clone.
@@ -106,12 +107,14 @@ impl CholeskyAnalysis {
     /// number of bytes, before anything is computed.
     pub fn factor<T: Scalar>(&self, values: &[T::Wide], watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
+        let mut plan = watch.plan(&[(Phase::Factorization, 1.0)]);
+        plan.begin(factorization_ticks::<T::Block>(&self.shared.symbolic))?;
         let mut factor = self.allocate::<T>(watch).map_err(|error| match error {
             // All that is needed is told, not the piece that could not be had.
             SolveError::OutOfMemory { .. } => SolveError::OutOfMemory { bytes: self.memory::<T>() },
             other => other,
         })?;
-        factor.compute(values, watch)?;
+        factor.compute(values, plan, watch)?;
         Ok(factor)
     }
 
@@ -191,14 +194,15 @@ impl<T: Scalar> CholeskyFactor<T> {
     /// gives the same error until the next factorisation.
     pub fn refactor(&mut self, values: &[T::Wide], watch: &Watch<'_>) -> Result<(), SolveError> {
         self.analysis.check::<T>(values)?;
-        self.compute(values, watch)
-    }
-
-    fn compute(&mut self, values: &[T::Wide], watch: &Watch<'_>) -> Result<(), SolveError> {
-        let Analysis { pattern, symbolic } = &*self.analysis.shared;
         self.state = State::Stopped;
         let mut plan = watch.plan(&[(Phase::Factorization, 1.0)]);
-        plan.begin(factorization_ticks::<T::Block>(symbolic))?;
+        plan.begin(factorization_ticks::<T::Block>(&self.analysis.shared.symbolic))?;
+        self.compute(values, plan, watch)
+    }
+
+    /// Computes what `plan` has begun.
+    fn compute(&mut self, values: &[T::Wide], plan: Plan<'_, '_>, watch: &Watch<'_>) -> Result<(), SolveError> {
+        let Analysis { pattern, symbolic } = &*self.analysis.shared;
         [self.scale, _] = scales::<T>(values);
         let matrix = ScaledMatrix { pattern, values, scale: self.scale };
         match self.workspace.factorize(symbolic, &matrix, &mut self.fronts, watch) {
