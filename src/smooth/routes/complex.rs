@@ -10,7 +10,7 @@ use nalgebra_sparse::CscMatrix;
 use super::factors::{Factor, Factors};
 use super::iterative;
 use super::refine::{Iterate, Refinement, refine};
-use super::{Answer, Task};
+use super::task::{Answer, Task};
 use crate::error::SolveError;
 use crate::smooth::Precision;
 use crate::smooth::names::Route;

@@ -1,6 +1,6 @@
 //! The smallest eigenvalue of a system's matrix, which tells how much a solution can move.
 
-use super::Problem;
+use super::problem::Problem;
 use crate::error::{Cancelled, SolveError};
 use crate::solve::norm;
 use crate::support::random::Random;

@@ -1,26 +1,13 @@
 //! Factors that are kept from one call to the next.
 
-use std::sync::Arc;
-
-use super::Answer;
 use super::refine::Iterate;
+use super::task::{Answer, FactorKey};
 use crate::error::SolveError;
 use crate::smooth::Precision;
-use crate::smooth::data_term::DataTerm;
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
 use crate::support::watch::{Phase, Watch};
-
-/// What a factor belongs to, within one system. A method that factors for many ε in turn, or for steps of an interior-point
-/// iteration, says by such a value which of them it is.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::smooth) enum FactorKey {
-    /// The system has no data term, and so one factor.
-    Plain,
-    /// The system with εB.
-    Regularized { epsilon: f64, term: Arc<DataTerm> },
-}
 
 /// A factor in double or single precision.
 #[derive(Debug)]

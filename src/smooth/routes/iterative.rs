@@ -3,7 +3,7 @@
 use super::eigenvalue::smallest_eigenvalue;
 use super::problem::{Form, SymmetricPart};
 use super::refine::{Iterate, Refinement, refine};
-use super::{Answer, Task};
+use super::task::{Answer, Task};
 use crate::error::{Cancelled, SolveError};
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};

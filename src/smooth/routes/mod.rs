@@ -15,53 +15,22 @@ mod iterative;
 mod problem;
 mod real;
 mod refine;
+mod task;
 
 use super::names::{Route, UsedPrecision};
 use super::schedule::{Stages, Work};
 use super::{Precision, SolverChoice};
 use crate::error::SolveError;
-use crate::smooth::data_term::Mass;
 use crate::support::watch::{Phase, Watch};
 use complex::ComplexFactors;
-pub(super) use factors::FactorKey;
 pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
 use real::RealRoute;
 use refine::Iterate;
+pub(super) use task::{Answer, FactorKey, SolverSettings, Task};
 
 /// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL, whose cost
 /// grows faster: estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
 const LARGE: usize = 400_000;
-/// Relative errors that refinement stops at: far below every use of the result, and above what a step could still mend.
-const DOUBLE: f64 = 1e-16;
-const SINGLE: f64 = 1e-13;
-
-/// How to solve, whatever the system.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SolverSettings {
-    pub(super) choice: SolverChoice,
-    pub(super) precision: Precision,
-    /// Whether the smallest eigenvalue is wanted, too.
-    pub(super) bounds: bool,
-}
-
-/// One call.
-pub(super) struct Task<'a> {
-    pub(super) problem: Problem<'a>,
-    pub(super) key: &'a FactorKey,
-    /// One per channel.
-    pub(super) right_hand_sides: &'a [RightHandSide],
-    pub(super) settings: SolverSettings,
-}
-
-/// Solutions, one per channel, and where they come from.
-pub(super) struct Answer {
-    pub(super) iterates: Vec<Iterate>,
-    pub(super) route: Route,
-    pub(super) precision: UsedPrecision,
-    pub(super) factor_nonzeros: u64,
-    /// A lower bound of the smallest eigenvalue of the system's matrix, where it was asked for and could be found.
-    pub(super) smallest_eigenvalue: Option<f64>,
-}
 
 /// A way to try: one that has a factor, or iterations without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,31 +76,6 @@ fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]
             (Way::ComplexIterations, &[Way::Real, Way::Iterations])
         }
         (SolverChoice::Auto, false) => (Way::Real, &[Way::ComplexIterations, Way::Iterations]),
-    }
-}
-
-impl Task<'_> {
-    /// The diagonal D of the second-order operator that the routes for a symmetric A are made from, DWD ≈ εB: √ε·B where the
-    /// system is a product, else √(ε·b/w) with the row sums b of B.
-    pub(super) fn shift(&self) -> Vec<f64> {
-        let n = self.problem.unknowns();
-        let Some(data) = self.problem.data() else { return vec![0.0; n] };
-        let root = data.epsilon.sqrt();
-        let sums = match data.mass {
-            Mass::Identity => return vec![root; n],
-            Mass::Diagonal(masses) if self.problem.is_product() => return masses.iter().map(|m| root * m).collect(),
-            Mass::Diagonal(masses) => masses.clone(),
-            // The rows of the Galerkin mass matrix sum to the lumped masses.
-            Mass::Matrix(_) | Mass::Partial(_) => data.mass.times(&vec![1.0; n]),
-        };
-        let weights = self.problem.weights();
-        let weight = |i: usize| weights.map_or(1.0, |weights| weights[i]);
-        sums.iter().enumerate().map(|(i, b)| root * (b / weight(i)).sqrt()).collect()
-    }
-
-    /// Refines to the accuracy of the precision.
-    pub(super) fn tolerance(&self, precision: Precision) -> f64 {
-        if precision == Precision::Single { SINGLE } else { DOUBLE }
     }
 }
 

@@ -3,10 +3,11 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::eigenvalue::smallest_eigenvalue;
-use super::factors::{FactorKey, Factors};
+use super::factors::Factors;
 use super::problem::Form;
+use super::problem::Problem;
 use super::refine::{Refinement, refine};
-use super::{Answer, Problem, Task};
+use super::task::{Answer, FactorKey, Task};
 use crate::error::SolveError;
 use crate::smooth::Precision;
 use crate::smooth::data_term::Mass;

@@ -1,0 +1,76 @@
+//! What a route is asked, and what it answers.
+
+use std::sync::Arc;
+
+use super::problem::{Problem, RightHandSide};
+use super::refine::Iterate;
+use crate::smooth::data_term::{DataTerm, Mass};
+use crate::smooth::names::{Route, UsedPrecision};
+use crate::smooth::{Precision, SolverChoice};
+
+/// Relative errors that refinement stops at: far below every use of the result, and above what a step could still mend.
+const DOUBLE: f64 = 1e-16;
+const SINGLE: f64 = 1e-13;
+
+/// How to solve, whatever the system.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::smooth) struct SolverSettings {
+    pub(in crate::smooth) choice: SolverChoice,
+    pub(in crate::smooth) precision: Precision,
+    /// Whether the smallest eigenvalue is wanted, too.
+    pub(in crate::smooth) bounds: bool,
+}
+
+/// What a factor belongs to, within one system. A method that factors for many ε in turn, or for steps of an interior-point
+/// iteration, says by such a value which of them it is.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::smooth) enum FactorKey {
+    /// The system has no data term, and so one factor.
+    Plain,
+    /// The system with εB.
+    Regularized { epsilon: f64, term: Arc<DataTerm> },
+}
+
+/// One call.
+pub(in crate::smooth) struct Task<'a> {
+    pub(in crate::smooth) problem: Problem<'a>,
+    pub(in crate::smooth) key: &'a FactorKey,
+    /// One per channel.
+    pub(in crate::smooth) right_hand_sides: &'a [RightHandSide],
+    pub(in crate::smooth) settings: SolverSettings,
+}
+
+/// Solutions, one per channel, and where they come from.
+pub(in crate::smooth) struct Answer {
+    pub(in crate::smooth) iterates: Vec<Iterate>,
+    pub(in crate::smooth) route: Route,
+    pub(in crate::smooth) precision: UsedPrecision,
+    pub(in crate::smooth) factor_nonzeros: u64,
+    /// A lower bound of the smallest eigenvalue of the system's matrix, where it was asked for and could be found.
+    pub(in crate::smooth) smallest_eigenvalue: Option<f64>,
+}
+
+impl Task<'_> {
+    /// The diagonal D of the second-order operator that the routes for a symmetric A are made from, DWD ≈ εB: √ε·B where the
+    /// system is a product, else √(ε·b/w) with the row sums b of B.
+    pub(super) fn shift(&self) -> Vec<f64> {
+        let n = self.problem.unknowns();
+        let Some(data) = self.problem.data() else { return vec![0.0; n] };
+        let root = data.epsilon.sqrt();
+        let sums = match data.mass {
+            Mass::Identity => return vec![root; n],
+            Mass::Diagonal(masses) if self.problem.is_product() => return masses.iter().map(|m| root * m).collect(),
+            Mass::Diagonal(masses) => masses.clone(),
+            // The rows of the Galerkin mass matrix sum to the lumped masses.
+            Mass::Matrix(_) | Mass::Partial(_) => data.mass.times(&vec![1.0; n]),
+        };
+        let weights = self.problem.weights();
+        let weight = |i: usize| weights.map_or(1.0, |weights| weights[i]);
+        sums.iter().enumerate().map(|(i, b)| root * (b / weight(i)).sqrt()).collect()
+    }
+
+    /// Refines to the accuracy of the precision.
+    pub(super) fn tolerance(&self, precision: Precision) -> f64 {
+        if precision == Precision::Single { SINGLE } else { DOUBLE }
+    }
+}
