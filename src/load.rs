@@ -68,7 +68,9 @@ pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
     for (name, values) in &fields {
         let not_finite = (0_u32..).zip(values).filter(|(_, value)| !value.is_finite()).map(|(vertex, _)| vertex);
         Diagnostic::report(&mut warnings, "NonFiniteValue", &mut { not_finite }, &|count| {
-            format!("{count} values of `{name}` are not finite; using the field will fail")
+            format!(
+                "{count} values of `{name}` are not finite; NaN can stand for a missing value, by the option `missing`"
+            )
         });
     }
     warnings.extend_from_slice(mesh.warnings());

@@ -14,11 +14,13 @@ pub struct WriteOptions {
     pub format: MeshFormat,
     /// Whether the numbers are binary: little endian in PLY, big endian in VTK. Default false.
     pub binary: bool,
+    /// Whether values of fields may be missing: NaN, written as `NaN`. Default false, and then NaN is an error.
+    pub missing: bool,
 }
 
 impl Default for WriteOptions {
     fn default() -> Self {
-        Self { format: MeshFormat::Ply, binary: false }
+        Self { format: MeshFormat::Ply, binary: false, missing: false }
     }
 }
 
@@ -37,7 +39,7 @@ impl Default for WriteOptions {
 /// use morse_smooth::io::{MeshFormat, ReadOptions, WriteOptions, read_mesh, write_mesh};
 ///
 /// let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-/// let options = WriteOptions { format: MeshFormat::Vtk, binary: true };
+/// let options = WriteOptions { format: MeshFormat::Vtk, binary: true, ..WriteOptions::default() };
 /// let bytes = write_mesh(&positions, &[0, 1, 2], &[("height", &[0.1, 0.2, 0.3])], &options)?;
 /// let data = read_mesh(&bytes, &ReadOptions::default())?;
 /// assert_eq!(data.fields, [("height".to_owned(), vec![0.1, 0.2, 0.3])]);
@@ -63,7 +65,7 @@ pub fn write_mesh(
         }
         MeshFormat::Stl | MeshFormat::Vtp | MeshFormat::Glb | MeshFormat::Asc => return Err(format.unsupported()),
     }
-    check(positions, triangles, fields)?;
+    check(positions, triangles, fields, options.missing)?;
     let mesh = Mesh { positions, triangles, fields };
     let mut out = Vec::new();
     if options.binary {
@@ -111,7 +113,7 @@ impl Mesh<'_> {
     }
 }
 
-fn check(positions: &[f64], triangles: &[u32], fields: &[(&str, &[f64])]) -> Result<(), ParseError> {
+fn check(positions: &[f64], triangles: &[u32], fields: &[(&str, &[f64])], missing: bool) -> Result<(), ParseError> {
     for (name, length) in [("positions", positions.len()), ("triangles", triangles.len())] {
         check_length(name, length as u64 / 3 * 3, length as u64)?;
     }
@@ -128,7 +130,8 @@ fn check(positions: &[f64], triangles: &[u32], fields: &[(&str, &[f64])]) -> Res
     }
     for &(name, values) in fields {
         check_length(name, vertices, values.len() as u64)?;
-        if let Some(vertex) = values.iter().position(|value| !value.is_finite()) {
+        let is_written = |value: &f64| value.is_finite() || (missing && value.is_nan());
+        if let Some(vertex) = values.iter().position(|value| !is_written(value)) {
             return Err(ParseError::NonFiniteValue { field: name.to_owned(), vertex: vertex as u32 });
         }
     }

@@ -18,9 +18,9 @@ const BYTES_PER_GRAM_ENTRY: u64 = 2 * 8 + 6 * size_of::<usize>() as u64;
 const BYTES_PER_ENTRY: usize = 8 + size_of::<usize>();
 
 /// Two entries that share a row, met while AᵀA is counted or computed.
-const TICKS_PER_PAIR: u64 = 3;
+const TICKS_PER_PAIR: u64 = 8;
 /// An entry that is put in its place in the transposed matrix.
-const TICKS_PER_MOVE: u64 = 8;
+const TICKS_PER_MOVE: u64 = 24;
 /// Ids that are counted before the watch is told.
 const CHUNK: usize = 1 << 18;
 

@@ -209,7 +209,12 @@ fn samples() -> Vec<Vec<u8>> {
             } else {
                 &[]
             };
-            samples.extend(write_mesh(&positions, &triangles, fields, &WriteOptions { format, binary }));
+            samples.extend(write_mesh(
+                &positions,
+                &triangles,
+                fields,
+                &WriteOptions { format, binary, ..WriteOptions::default() },
+            ));
         }
     }
     for text in [

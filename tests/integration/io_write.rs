@@ -20,8 +20,24 @@ fn can_hold_fields(format: MeshFormat) -> bool {
 }
 
 fn text(format: MeshFormat, fields: &[(&str, &[f64])]) -> String {
-    let bytes = write_mesh(&TRIANGLE, &[0, 1, 2], fields, &WriteOptions { format, binary: false });
+    let bytes =
+        write_mesh(&TRIANGLE, &[0, 1, 2], fields, &WriteOptions { format, binary: false, ..WriteOptions::default() });
     String::from_utf8(bytes.expect("a valid mesh")).expect("text")
+}
+
+#[test]
+fn missing_values_are_written_where_that_is_asked_for() {
+    for (format, binary) in VARIETIES.into_iter().filter(|&(format, _)| can_hold_fields(format)) {
+        let options = WriteOptions { format, binary, missing: true };
+        let values = [f64::NAN, 0.1, 2.0];
+        let bytes = write_mesh(&TRIANGLE, &[0, 1, 2], &[("f", &values)], &options).expect("valid");
+        let data = read_mesh(&bytes, &ReadOptions::default()).expect("a mesh");
+        assert!(data.fields[0].1[0].is_nan() && data.fields[0].1[1..] == values[1..], "{:?}", data.fields);
+        for bad in [f64::INFINITY, f64::NEG_INFINITY] {
+            let refused = write_mesh(&TRIANGLE, &[0, 1, 2], &[("f", &[f64::NAN, bad, 1.0])], &options);
+            assert_eq!(refused, Err(ParseError::NonFiniteValue { field: "f".to_owned(), vertex: 1 }));
+        }
+    }
 }
 
 #[test]
@@ -53,7 +69,9 @@ fn names_are_cleaned_without_collisions() {
     let names = ["a b", "a_b", "a\tb", "x", "", "", "50% \"é\"", "a_b_2"];
     let fields: Vec<(&str, &[f64])> = names.iter().map(|&name| (name, &values[..])).collect();
     let read_names = |format, binary| {
-        let bytes = write_mesh(&TRIANGLE, &[0, 1, 2], &fields, &WriteOptions { format, binary }).expect("valid");
+        let bytes =
+            write_mesh(&TRIANGLE, &[0, 1, 2], &fields, &WriteOptions { format, binary, ..WriteOptions::default() })
+                .expect("valid");
         let data = read_mesh(&bytes, &ReadOptions::default()).expect("valid");
         assert!(data.warnings.is_empty(), "{:?}", data.warnings);
         data.fields.into_iter().map(|(name, _)| name).collect::<Vec<_>>()
@@ -70,7 +88,8 @@ fn names_are_cleaned_without_collisions() {
 fn what_cannot_be_written_is_refused() {
     let field: &[(&str, &[f64])] = &[("f", &[1.0, 2.0, 3.0])];
     let write = |positions: &[f64], triangles: &[u32], fields: &[(&str, &[f64])], format, binary| {
-        write_mesh(positions, triangles, fields, &WriteOptions { format, binary }).expect_err("refused")
+        write_mesh(positions, triangles, fields, &WriteOptions { format, binary, ..WriteOptions::default() })
+            .expect_err("refused")
     };
     for format in [MeshFormat::Obj, MeshFormat::Off] {
         let name = format.name().to_owned();
@@ -130,7 +149,7 @@ proptest! {
         for (format, binary) in VARIETIES {
             let fields: &[(&str, &[f64])] =
                 if can_hold_fields(format) { &[("one", &first), ("two", &second)] } else { &[] };
-            let bytes = write_mesh(&positions, &triangles, fields, &WriteOptions { format, binary }).expect("valid");
+            let bytes = write_mesh(&positions, &triangles, fields, &WriteOptions { format, binary, ..WriteOptions::default() }).expect("valid");
             let data = read_mesh(&bytes, &ReadOptions::default()).expect("valid");
             prop_assert_eq!(data.format, format);
             prop_assert!(data.warnings.is_empty(), "{:?}", data.warnings);

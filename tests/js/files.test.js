@@ -64,6 +64,12 @@ describe('reading', () => {
     expect([...readField(table, { column: 'heat' })]).toEqual([1.5, 2.5]);
     expect([...readField(table, { format: 'csv', column: 2 })]).toEqual([9, 8]);
   });
+
+  it('a field with gaps, which are NaN; what is infinite is refused', () => {
+    expect(readField(text('1\nnan\n2\n'))).toEqual(Float64Array.of(1, NaN, 2));
+    expect(readField(text('a,b\n1,NaN\n2,3\n'), { column: 'b' })).toEqual(Float64Array.of(NaN, 3));
+    expectError(() => readField(text('1\n-inf\n2\n')), 'NonFiniteValue', { vertex: 1 });
+  });
 });
 
 describe('writing', () => {
@@ -91,6 +97,20 @@ describe('writing', () => {
       expect([...back.fields.heat]).toEqual(heat);
       expect([...back.fields.cold]).toEqual([...Float32Array.from(heat)]);
     }
+  });
+
+  it('values that are missing, where that is asked for', () => {
+    const mesh = make(square(3));
+    const fields = { f: Float64Array.from({ length: mesh.vertexCount }, (_, v) => (v === 2 ? NaN : v)) };
+    for (const format of ['ply', 'vtk'])
+      for (const binary of [false, true]) {
+        expectError(() => writeMesh(mesh, { format, fields, binary }), 'NonFiniteValue', { vertex: 2 });
+        const read = readMesh(writeMesh(mesh, { format, fields, binary, missing: 'omit' }));
+        expect(read.fields).toEqual(fields);
+        read.mesh.free();
+      }
+    expectError(() => writeMesh(mesh, { format: 'ply', missing: 'fill' }), 'InapplicableOption', { option: 'missing' });
+    mesh.free();
   });
 
   it('refuses what does not fit', () => {

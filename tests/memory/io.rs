@@ -22,7 +22,8 @@ fn mesh_files() {
         ] {
             let what = format!("{} of {name}", format.name());
             let file = check(&format!("writing {what}"), 1.5, || {
-                write_mesh(&positions, &triangles, fields, &WriteOptions { format, binary }).unwrap()
+                write_mesh(&positions, &triangles, fields, &WriteOptions { format, binary, ..WriteOptions::default() })
+                    .unwrap()
             });
             let read = check(&format!("reading {what}"), 1.2, || read_mesh(&file, &ReadOptions::default()).unwrap());
             assert_eq!(read.positions, positions);

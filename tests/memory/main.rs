@@ -106,6 +106,9 @@ pub fn usage<T>(call: impl FnOnce() -> T) -> (T, Usage) {
 }
 
 /// Runs a call and checks that it made sure of its memory before it took it, and of no more than `times` as much as it took.
+///
+/// # Panics
+/// Where it did not.
 #[track_caller]
 pub fn check<T>(what: &str, times: f64, call: impl FnOnce() -> T) -> T {
     let (result, Usage { excess, peak, ensured }) = usage(call);

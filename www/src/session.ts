@@ -124,7 +124,12 @@ export class Session {
     const label = this.labelOf(settings.field);
     const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!.values, [`${label}_${suffix}`]: smoothed };
-    const bytes = writeMesh(this.mesh, { format: 'ply', fields: plainNames(fields), binary: true });
+    const bytes = writeMesh(this.mesh, {
+      format: 'ply',
+      fields: plainNames(fields),
+      binary: true,
+      missing: 'omit',
+    });
     send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
   }
 

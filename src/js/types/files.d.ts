@@ -53,8 +53,9 @@ export interface ReadFieldOptions {
 
 /**
  * Reads a field from text: numbers with blanks or line ends between them, or a column of a table with commas, semicolons or tabs.
+ * `nan` is a missing value, NaN in the field.
  *
- * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex`; `UnknownColumn`; `EmptyFile`
+ * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
  */
 export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
 
@@ -65,6 +66,8 @@ export interface WriteMeshOptions {
   fields?: Record<string, Numbers>;
   /** Whether the file is binary, as PLY and VTK can be (otherwise `BinaryNotSupported`). Default `false`. */
   binary?: boolean;
+  /** What NaN in a field means: `"omit"` writes it as it is, for there is no value. Default `"error"` (`NonFiniteValue`). */
+  missing?: 'error' | 'omit';
 }
 
 /**

@@ -106,24 +106,28 @@ impl CholeskyAnalysis {
     /// number of bytes, before anything is computed.
     pub fn factor<T: Scalar>(&self, values: &[T::Wide], watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
-        let mut factor = self.allocate::<T>().ok_or_else(|| SolveError::OutOfMemory { bytes: self.memory::<T>() })?;
+        let mut factor = self.allocate::<T>(watch).map_err(|error| match error {
+            // All that is needed is told, not the piece that could not be had.
+            SolveError::OutOfMemory { .. } => SolveError::OutOfMemory { bytes: self.memory::<T>() },
+            other => other,
+        })?;
         factor.compute(values, watch)?;
         Ok(factor)
     }
 
-    /// Room for a factor and its computation, if it can be had.
-    fn allocate<T: Scalar>(&self) -> Option<CholeskyFactor<T>> {
+    /// Room for a factor and its computation.
+    fn allocate<T: Scalar>(&self, watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
         let symbolic = &self.shared.symbolic;
         // What cannot fit must not be tried: WebAssembly never gives memory back.
         if self.memory::<T>() > ADDRESS_SPACE {
-            return None;
+            return Err(SolveError::OutOfMemory { bytes: self.memory::<T>() });
         }
         // The largest block first.
-        let workspace = Workspace::new(symbolic, storage::<T::Block>(symbolic).1).ok()?;
-        let fronts = reserve_fronts(symbolic).ok()?;
+        let workspace = Workspace::new(symbolic, storage::<T::Block>(symbolic).1, watch)?;
+        let fronts = reserve_fronts(symbolic, watch)?;
         // Vectors that will be needed beside the factor must find room too.
-        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64).ok()?);
-        Some(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, state: State::Stopped })
+        drop(reserve::<u8>(HEADROOM * self.unknowns() as u64)?);
+        Ok(CholeskyFactor { analysis: self.clone(), fronts, workspace, scale: 1.0, state: State::Stopped })
     }
 
     fn check<T: Scalar>(&self, values: &[T::Wide]) -> Result<(), SolveError> {
@@ -146,12 +150,12 @@ const TICKS_PER_UNKNOWN: u64 = 10;
 /// What [`nested_dissection`] is expected to take: all entries are looked at on each level of dissection.
 fn ordering_ticks(pattern: &SparsityPattern) -> u64 {
     let unknowns = pattern.major_dim() as u64;
-    (150 * unknowns + 4 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
+    (320 * unknowns + 9 * pattern.nnz() as u64) * u64::from((unknowns / 64).max(2).ilog2())
 }
 
 /// What the symbolic analysis is expected to take.
 fn symbolic_ticks(pattern: &SparsityPattern) -> u64 {
-    100 * pattern.major_dim() as u64 + 10 * pattern.nnz() as u64
+    400 * pattern.major_dim() as u64 + 30 * pattern.nnz() as u64
 }
 
 /// Bytes per unknown that must be left beside a factor, for a few dozen vectors.

@@ -7,7 +7,7 @@ use super::front::{Diagonal, Front, Stopped, elimination_ticks, sizes, triangle}
 use super::scalar::{LaneBlock, Scalar};
 use super::symbolic::Symbolic;
 use crate::Watch;
-use crate::error::SolveError;
+use crate::error::{OutOfMemory, SolveError};
 use crate::support::memory;
 
 /// Lane blocks of the whole factor, and of the stack of updates at its fullest.
@@ -40,6 +40,11 @@ const NEGLIGIBLE: f64 = 256.0;
 /// Pivots of sound matrices can be this small a fraction of their entries, where triangles are needles. It leaves single
 /// precision without a sure way to tell singular matrices: there a solution has to be checked, as refinement does.
 const MOST_NEGLIGIBLE: f64 = 1e-5;
+
+/// The room for one front.
+const TICKS_PER_ALLOCATION: u64 = 500;
+/// Lane blocks that are set to zero for the first time before the watch is told.
+const CHUNK: usize = 1 << 16;
 
 /// A matrix, multiplied by a number.
 pub(super) struct ScaledMatrix<'a, B: LaneBlock> {
@@ -87,19 +92,35 @@ pub(super) fn reserve<T>(blocks: u64) -> Result<Vec<T>, SolveError> {
     }
 }
 
+/// Memory that is asked for ahead of the fronts that are put there. WebAssembly's memory grows slowly in small steps, and
+/// never shrinks: more than this is not taken where smaller pieces are still free.
+const AHEAD: u64 = 16 << 20;
+
 /// Room for every front's part of the factor. One allocation each: they find room among what earlier work left behind,
 /// where the whole factor would not.
-pub(super) fn reserve_fronts<B: LaneBlock>(symbolic: &Symbolic) -> Result<Vec<Vec<B>>, SolveError> {
+pub(super) fn reserve_fronts<B: LaneBlock>(symbolic: &Symbolic, watch: &Watch<'_>) -> Result<Vec<Vec<B>>, SolveError> {
     let size = |s| sizes::<B>(symbolic.columns(s).len(), symbolic.rows_of(s).len()).0;
     let mut fronts = memory::with_room(symbolic.fronts())?;
+    let mut left: u64 = (0..symbolic.fronts()).map(size).sum::<u64>() * size_of::<B>() as u64;
+    let mut ahead = 0;
     for s in 0..symbolic.fronts() {
+        let bytes = size(s) * size_of::<B>() as u64;
+        if bytes > ahead {
+            ahead = AHEAD.max(bytes).min(left);
+            // Where so much is not to be had in one piece, smaller ones may be.
+            let _: Result<(), OutOfMemory> = memory::ensure(ahead);
+            watch.tick(ahead / 8)?;
+        }
         fronts.push(reserve(size(s))?);
+        ahead -= bytes;
+        left -= bytes;
+        watch.tick(TICKS_PER_ALLOCATION)?;
     }
     Ok(fronts)
 }
 
 impl<B: LaneBlock> Workspace<B> {
-    pub(super) fn new(symbolic: &Symbolic, stack: u64) -> Result<Self, SolveError> {
+    pub(super) fn new(symbolic: &Symbolic, stack: u64, watch: &Watch<'_>) -> Result<Self, SolveError> {
         let most = |length: &dyn Fn(usize) -> usize| (0..symbolic.fronts()).map(length).max().unwrap_or(0);
         let mut workspace = Self {
             stack: reserve(stack)?,
@@ -107,7 +128,11 @@ impl<B: LaneBlock> Workspace<B> {
             child_places: memory::with_room(most(&|s| symbolic.rows_of(s).len()))?,
             diagonal: memory::with_room(most(&|s| symbolic.columns(s).len()))?,
         };
-        workspace.stack.resize(stack as usize, B::ZERO);
+        while workspace.stack.len() < stack as usize {
+            let length = (workspace.stack.len() + CHUNK).min(stack as usize);
+            workspace.stack.resize(length, B::ZERO);
+            watch.tick((CHUNK * size_of::<B>()) as u64)?;
+        }
         Ok(workspace)
     }
 

@@ -6,7 +6,7 @@ use crate::error::SolveError;
 use crate::support::memory;
 
 /// A row of a front that is gathered from the matrix or a child, and sorted.
-const TICKS_PER_ROW: u64 = 25;
+const TICKS_PER_ROW: u64 = 60;
 
 /// The fronts in the order of their elimination, and the columns renumbered so that each front's are together.
 pub(super) struct Supernodes {

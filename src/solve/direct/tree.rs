@@ -9,7 +9,7 @@ use crate::solve::ordering::Permutation;
 pub(super) const NONE: u32 = u32::MAX;
 
 /// An entry of the matrix that is looked at.
-const TICKS_PER_ENTRY: u64 = 5;
+const TICKS_PER_ENTRY: u64 = 12;
 
 /// For every unknown, in the order of elimination, its neighbours that come later.
 pub(super) struct Later {

@@ -25,9 +25,9 @@ fn part<'a, B: LaneBlock>(symbolic: &'a Symbolic, factor: &'a [Vec<B>], s: usize
     Part { pivots, below, columns, rows }
 }
 
-/// Nanoseconds in WebAssembly for one pass over so many lane blocks, and for a front.
+/// Nanoseconds in WebAssembly for a front, and for one pass over so many lane blocks from memory.
 fn ticks<B>(blocks: usize) -> u64 {
-    50 + blocks as u64 * size_of::<B>() as u64 / 16
+    100 + blocks as u64 * size_of::<B>() as u64 / 5
 }
 
 /// Overwrites a right-hand side, in the order of elimination, with the solution.
@@ -150,7 +150,8 @@ pub(super) fn solve_block<B: LaneBlock>(
                 later[id as usize - part.columns.end] = *block;
             }
         }
-        watch.tick(B::LANES as u64 * ticks::<B>(factor[s].len()))?;
+        // Read once, and used for every lane.
+        watch.tick(ticks::<B>(B::LANES / 2 * factor[s].len()))?;
     }
     for s in (0..factor.len()).rev() {
         let part = part(symbolic, factor, s);
@@ -169,7 +170,8 @@ pub(super) fn solve_block<B: LaneBlock>(
             solve_transposed_tile(open, &row[tile..]);
             subtract_transposed(before, &row[..tile], open);
         }
-        watch.tick(B::LANES as u64 * ticks::<B>(factor[s].len()))?;
+        // Read once, and used for every lane.
+        watch.tick(ticks::<B>(B::LANES / 2 * factor[s].len()))?;
     }
     Ok(())
 }

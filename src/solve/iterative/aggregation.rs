@@ -13,8 +13,8 @@ const DOMINATED: f64 = 0.2;
 /// ω of the step that smooths the prolongation: 4/3 over the largest eigenvalue of the filtered D⁻¹A \[Vanek96\], which is at
 /// most 2, because its rows are the identity's minus positive weights with a sum of at most 1.
 const RELAXATION: f64 = 2.0 / 3.0;
-/// An entry of the matrix, while unknowns are gathered in aggregates and while the prolongation is smoothed.
-const TICKS_PER_ENTRY: u64 = 10;
+/// An entry of the matrix in a pass over it.
+const TICKS_PER_ENTRY: u64 = 15;
 /// In no aggregate yet.
 const FREE: u32 = u32::MAX;
 /// Needs none.
@@ -23,11 +23,8 @@ const LEFT_OUT: u32 = u32::MAX - 1;
 /// The prolongation to the unknowns from their aggregates.
 pub(super) fn prolongation(matrix: &SymmetricRows, watch: &Watch<'_>) -> Result<Rows, Cancelled> {
     let strength: Vec<f64> = (0..matrix.size()).map(|i| matrix.diagonal(i).sqrt() * STRONG.sqrt()).collect();
-    let (aggregates, count) = aggregate(matrix, &strength);
-    watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
-    let result = smoothed(matrix, &strength, &aggregates, count);
-    watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
-    Ok(result)
+    let (aggregates, count) = aggregate(matrix, &strength, watch)?;
+    smoothed(matrix, &strength, &aggregates, count, watch)
 }
 
 /// The strong neighbours of an unknown with their weights −a_ij.
@@ -37,7 +34,8 @@ fn strong<'a>(matrix: &'a SymmetricRows, strength: &'a [f64], i: usize) -> impl 
 }
 
 /// The aggregate of every unknown, in the order of the unknowns, and how many there are.
-fn aggregate(matrix: &SymmetricRows, strength: &[f64]) -> (Vec<u32>, usize) {
+fn aggregate(matrix: &SymmetricRows, strength: &[f64], watch: &Watch<'_>) -> Result<(Vec<u32>, usize), Cancelled> {
+    let tick = |i: usize| watch.tick(TICKS_PER_ENTRY * matrix.rows.range(i).len() as u64);
     let n = matrix.size();
     let mut aggregates = vec![FREE; n];
     for i in 0..n {
@@ -45,6 +43,7 @@ fn aggregate(matrix: &SymmetricRows, strength: &[f64]) -> (Vec<u32>, usize) {
         if sides <= DOMINATED * matrix.diagonal(i) {
             aggregates[i] = LEFT_OUT;
         }
+        tick(i)?;
     }
     // Neighbourhoods that nobody has taken from …
     let mut count = 0;
@@ -54,6 +53,7 @@ fn aggregate(matrix: &SymmetricRows, strength: &[f64]) -> (Vec<u32>, usize) {
             take(matrix, strength, &mut aggregates, i, count);
             count += 1;
         }
+        tick(i)?;
     }
     // … what is left joins the one it is coupled to most …
     let first = aggregates.clone();
@@ -62,6 +62,7 @@ fn aggregate(matrix: &SymmetricRows, strength: &[f64]) -> (Vec<u32>, usize) {
         if let Some(best) = strongest(taken) {
             aggregates[i] = first[best];
         }
+        tick(i)?;
     }
     // … and what has no such neighbour makes aggregates of its own, or follows a weak one.
     for i in 0..n {
@@ -78,7 +79,7 @@ fn aggregate(matrix: &SymmetricRows, strength: &[f64]) -> (Vec<u32>, usize) {
         take(matrix, strength, &mut aggregates, i, count);
         count += 1;
     }
-    (aggregates, count as usize)
+    Ok((aggregates, count as usize))
 }
 
 /// Makes an aggregate of an unknown and its free strong neighbours.
@@ -104,7 +105,13 @@ fn strongest(neighbours: impl Iterator<Item = (usize, f64)>) -> Option<usize> {
 
 /// One step of Jacobi's iteration for the filtered matrix on the indicators of the aggregates. Filtered: weak entries are
 /// moved to the diagonal, which keeps sums of rows.
-fn smoothed(matrix: &SymmetricRows, strength: &[f64], aggregates: &[u32], count: usize) -> Rows {
+fn smoothed(
+    matrix: &SymmetricRows,
+    strength: &[f64],
+    aggregates: &[u32],
+    count: usize,
+    watch: &Watch<'_>,
+) -> Result<Rows, Cancelled> {
     let mut result = Rows { offsets: vec![0], width: count, ..Rows::default() };
     for (i, &own) in aggregates.iter().enumerate() {
         if own < LEFT_OUT {
@@ -129,6 +136,7 @@ fn smoothed(matrix: &SymmetricRows, strength: &[f64], aggregates: &[u32], count:
             }
         }
         result.offsets.push(result.columns.len() as u32);
+        watch.tick(2 * TICKS_PER_ENTRY * matrix.rows.range(i).len() as u64)?;
     }
-    result
+    Ok(result)
 }

@@ -21,7 +21,7 @@ const LONG_ROW: usize = 64;
 const BYTES_PER_ENTRY: usize = 120;
 
 /// An entry of the matrix, while stiff unknowns are sought.
-const TICKS_PER_ENTRY: u64 = 15;
+const TICKS_PER_ENTRY: u64 = 50;
 /// An unknown that is eliminated.
 const TICKS_PER_UNKNOWN: u64 = 2000;
 
@@ -56,8 +56,14 @@ impl Elimination {
         let mut rows = Changing { matrix: &matrix, places: vec![UNCHANGED; n], changed: Vec::new() };
         let mut elimination = Self::default();
         elimination.weights.offsets.push(0);
-        let mut open: Vec<u32> = (0..n as u32).filter(|&i| rows.is_stiff(i as usize)).collect();
-        watch.tick(TICKS_PER_ENTRY * matrix.rows.values.len() as u64)?;
+        let mut open: Vec<u32> = Vec::new();
+        for i in 0..n {
+            if rows.is_stiff(i) {
+                memory::make_room(&mut open, 1)?;
+                open.push(i as u32);
+            }
+            watch.tick(TICKS_PER_ENTRY * matrix.rows.range(i).len() as u64)?;
+        }
         if !open.is_empty() {
             memory::ensure((BYTES_PER_ENTRY * matrix.rows.values.len()) as u64)?;
         }

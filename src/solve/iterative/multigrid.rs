@@ -21,14 +21,14 @@ const STALLED: f64 = 0.8;
 const ROUNDING: f64 = 1e-14;
 
 /// An entry of a level's matrix or prolongation in one sweep.
-const TICKS_PER_ENTRY: u64 = 3;
+const TICKS_PER_ENTRY: u64 = 5;
 /// What the set-up takes for each entry of the matrix, and for each unknown.
 const BYTES_PER_ENTRY: usize = 90;
 const BYTES_PER_UNKNOWN: usize = 150;
 
 /// What the set-up is expected to take.
 pub(super) fn setup_ticks(matrix: &CscMatrix<f64>) -> u64 {
-    150 * matrix.nnz() as u64
+    400 * matrix.nnz() as u64
 }
 
 /// One symmetric V-cycle of smoothed aggregation multigrid \[Vanek96\]: set-up, memory and application take time

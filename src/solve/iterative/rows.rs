@@ -7,9 +7,9 @@ use crate::error::{Cancelled, SolveError};
 use crate::support::memory;
 
 /// An entry that is put in its place in the transposed matrix.
-const TICKS_PER_MOVE: u64 = 8;
+const TICKS_PER_MOVE: u64 = 24;
 /// A pair of entries in a product of matrices.
-const TICKS_PER_PAIR: u64 = 5;
+const TICKS_PER_PAIR: u64 = 16;
 
 /// A sparse matrix by rows.
 #[derive(Debug, Clone, Default)]
@@ -125,7 +125,6 @@ impl SymmetricRows {
             return Err(SolveError::OutOfMemory { bytes: 12 * count as u64 });
         }
         let (offsets, ids) = (matrix.col_offsets(), matrix.row_indices());
-        watch.tick(TICKS_PER_MOVE * count as u64)?;
         // The matrix in 32-bit ids, and places of diagonal entries; where the columns are read.
         memory::ensure((12 * count + (8 + size_of::<usize>()) * n) as u64)?;
         // Going through the columns in order, the mirror images of a row's entries come in order too.
@@ -140,6 +139,7 @@ impl SymmetricRows {
                     return Err(SolveError::NotSymmetric { row: i, column: j });
                 }
             }
+            watch.tick(TICKS_PER_MOVE * (offsets[j + 1] - offsets[j]) as u64)?;
         }
         if let Some(i) = (0..n).find(|&i| next[i] < offsets[i + 1]) {
             return Err(SolveError::NotSymmetric { row: ids[next[i]], column: i });

@@ -28,9 +28,9 @@ const PASSES: usize = 2;
 const BYTES_PER_UNKNOWN: u64 = 140;
 
 /// An unknown of a part that is labelled, grouped and handed down.
-const TICKS_PER_MEMBER: u64 = 40;
+const TICKS_PER_MEMBER: u64 = 80;
 /// A pair of unknowns of a leaf.
-const TICKS_PER_LEAF: u64 = 4;
+const TICKS_PER_LEAF: u64 = 8;
 
 /// Nested dissection (\[George73\]) of the graph of a square symmetric pattern: a small set of unknowns that separates the rest
 /// into two parts of similar size comes last, and each of the parts is ordered alike, until minimum degree takes over. Leaves

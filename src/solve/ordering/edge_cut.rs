@@ -41,8 +41,8 @@ impl EdgeCut {
 }
 
 /// A vertex that may be at the cut, and one that moves or is at the cut.
-const TICKS_PER_VERTEX: u64 = 12;
-const TICKS_PER_MOVE: u64 = 100;
+const TICKS_PER_VERTEX: u64 = 30;
+const TICKS_PER_MOVE: u64 = 250;
 
 /// Buckets of a queue; gains are counted from the middle.
 const BUCKETS: i64 = 512;

@@ -12,7 +12,7 @@ use crate::support::memory;
 const MANY: usize = 64;
 
 /// An edge that is looked at, in a graph that does not fit the cache.
-const TICKS_PER_EDGE: u64 = 4;
+const TICKS_PER_EDGE: u64 = 10;
 
 /// Bytes of the graph of a pattern.
 pub(super) fn bytes(pattern: &SparsityPattern) -> u64 {

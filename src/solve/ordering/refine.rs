@@ -39,7 +39,7 @@ impl Cut {
 }
 
 /// An unknown that enters the separator or leaves it.
-const TICKS_PER_MOVE: u64 = 150;
+const TICKS_PER_MOVE: u64 = 350;
 
 /// More unknowns than these that a move drags along make no difference.
 const KEYS: usize = 256;

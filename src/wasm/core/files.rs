@@ -6,6 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::mesh::{RawTriMesh, from_weld, weld};
 use super::reports;
 use crate::error::{FieldError, OptionError};
+use crate::field::Missing;
 use crate::io::{self, Column, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::load::{LoadOptions, load};
 use crate::wasm::shared::answer::{Answer, array};
@@ -40,7 +41,8 @@ pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<JsValue, Throw
     let options =
         read("", options, |record| FieldReadOptions { format: record.choice("format"), column: column(record) })?;
     let values = io::read_field(&bytes(file)?, &options)?;
-    if let Some(vertex) = values.iter().position(|value| !value.is_finite()) {
+    // What is not a number is missing; whoever uses the field says what becomes of it.
+    if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {
         return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
     }
     Ok(array(&values)?)
@@ -57,10 +59,11 @@ fn column(record: &Record) -> Option<Column> {
 /// Writes a mesh; `fields` of the options holds `Float64Array`s by name.
 #[wasm_bindgen(js_name = writeMesh)]
 pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<JsValue, Thrown> {
-    let (format, binary, fields) = read("", options, |record| {
+    let (format, binary, missing, fields) = read("", options, |record| {
         let format = record.chosen("format").unwrap_or(MeshFormat::Ply);
         let fields = record.object::<Object>("fields", "an object of arrays by name");
-        (format, record.boolean("binary").unwrap_or_default(), fields)
+        let missing = record.choice("missing").unwrap_or_default();
+        (format, record.boolean("binary").unwrap_or_default(), missing, fields)
     })?;
     let mut named = Vec::new();
     for entry in fields.iter().flat_map(|fields| Object::entries(fields).to_vec()) {
@@ -72,7 +75,15 @@ pub fn write_mesh(mesh: &RawTriMesh, options: &JsValue) -> Result<JsValue, Throw
     }
     let borrowed: Vec<(&str, &[f64])> = named.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
     let mesh = mesh.mesh();
-    let options = WriteOptions { format, binary };
+    let missing = match missing {
+        Missing::Error => false,
+        Missing::Omit => true,
+        Missing::Fill => {
+            let reason = "only smoothing can fill in missing values".to_owned();
+            return Err(OptionError::InapplicableOption { option: "missing".to_owned(), reason }.into());
+        }
+    };
+    let options = WriteOptions { format, binary, missing };
     let written =
         io::write_mesh(mesh.positions(), mesh.connectivity().triangles().as_flattened(), &borrowed, &options)?;
     Ok(array(&written)?)
