@@ -9,7 +9,9 @@ const SIZES = quick ? [['40k', [250, 160]]] : [['100k', [400, 250]], ['1M', [125
 const MEDIAN = 50;
 const WORST = 200;
 
-const rows = [['call', 'whole, ms', 'questions', `median, ms (≤ ${MEDIAN})`, `worst, ms (≤ ${WORST})`, 'stopped', 'lost, bytes']];
+const rows = [
+  ['call', 'whole, ms', 'questions', `median, ms (≤ ${MEDIAN})`, `worst, ms (≤ ${WORST})`, 'stopped', 'lost, bytes'],
+];
 for (const [label, size] of SIZES) {
   for (const [name] of CALLS) {
     const large = label === '1M';
@@ -18,7 +20,15 @@ for (const [label, size] of SIZES) {
     else {
       const { total, questions, median, worst, stopped, lost } = result;
       const lostBytes = large ? '' : String(lost);
-      rows.push([`${label} ${name}`, total.toFixed(0), String(questions), median.toFixed(1), worst.toFixed(1), String(stopped), lostBytes]);
+      rows.push([
+        `${label} ${name}`,
+        total.toFixed(0),
+        String(questions),
+        median.toFixed(1),
+        worst.toFixed(1),
+        String(stopped),
+        lostBytes,
+      ]);
     }
   }
 }

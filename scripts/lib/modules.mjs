@@ -20,8 +20,9 @@ const TABLE = {
     copies: ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs'],
     types: { index: ['package', 'files', 'mesh', 'field', 'smoothing'] },
     // 36 kB for the sparse solver, 32 kB for persistence, Morse complex and the like, 29 kB for constraints, filters and the
-    // intrinsic Delaunay Laplacian, 120 kB for all else.
-    limit: 218_000,
+    // intrinsic Delaunay Laplacian, 27 kB for missing values, stopping, memory that is made sure of, welding with a tolerance and
+    // extrema that cannot be avoided, 120 kB for all else.
+    limit: 246_000,
   },
   snapshot: {
     name: 'morse_smooth_snapshot',
@@ -33,7 +34,7 @@ const TABLE = {
     copies: ['snapshot-node.mjs'],
     types: { snapshot: ['snapshot'] },
     // Half of it tiny-skia and png.
-    limit: 200_000,
+    limit: 208_000,
   },
 };
 

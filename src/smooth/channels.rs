@@ -6,6 +6,7 @@ use super::missing::Gaps;
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::memory;
 
 /// Channels that are solved for at once: as many as a factor in double precision takes together. Any number of channels
 /// takes the memory of so many.
@@ -62,6 +63,7 @@ impl<'a> Channels<'a> {
         if channels == 0 {
             return Err(OptionError::invalid("channels", "a positive integer").into());
         }
+        memory::ensure(16 * n as u64)?;
         if n.checked_mul(channels) != Some(values.len()) {
             let expected = n.saturating_mul(channels);
             return Err(FieldError::length_mismatch(expected, values.len(), mesh.triangle_count()).into());

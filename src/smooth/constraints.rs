@@ -8,6 +8,7 @@ use super::schedule::Stages;
 use crate::error::{FieldError, MeshError, Result};
 use crate::field::{Features, ScalarField, feature_points, with_stars};
 use crate::mesh::TriMesh;
+use crate::support::memory;
 use crate::support::named::named;
 use crate::support::watch::{Phase, Watch};
 
@@ -91,6 +92,8 @@ impl ConstraintSet {
         constraints: &Constraints<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self> {
+        // The values of a channel, also of the part that has values; the lists and marks that become the set.
+        memory::ensure(40 * mesh.vertex_count() as u64)?;
         let mut features = Vec::new();
         match (&constraints.features, gaps) {
             (Features::Vertices(vertices), _) => {

@@ -49,12 +49,15 @@ impl DataTerm {
             Norm::Identity if self.missing.is_empty() => return Ok(Mass::Identity),
             Norm::Identity => vec![1.0; unknowns.len()],
             Norm::Galerkin(scale) => {
-                let matrix = submatrix(&galerkin_mass(mesh, *scale)?, unknowns);
+                let mut matrix = submatrix(&galerkin_mass(mesh, *scale)?, unknowns);
                 if self.missing.is_empty() {
                     return Ok(Mass::Matrix(matrix));
                 }
                 let missing: Vec<bool> = unknowns.iter().map(is_missing).collect();
-                return Ok(Mass::Partial(matrix.filter(|row, column, _| !missing[row] && !missing[column])));
+                for (row, column, value) in matrix.triplet_iter_mut() {
+                    *value = if missing[row] || missing[column] { 0.0 } else { *value };
+                }
+                return Ok(Mass::Partial(matrix));
             }
             Norm::Lumped(scale) => {
                 let diagonal = lumped_mass_diagonal(mesh, *scale)?;
@@ -88,7 +91,7 @@ pub(super) enum Mass {
     Diagonal(Vec<f64>),
     /// The Galerkin mass matrix.
     Matrix(CscMatrix<f64>),
-    /// The Galerkin mass matrix without the rows and columns of vertices whose values are missing.
+    /// The Galerkin mass matrix with zeros in the rows and columns of vertices whose values are missing.
     Partial(CscMatrix<f64>),
 }
 

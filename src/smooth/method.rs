@@ -17,6 +17,7 @@ use super::{Constraints, SmootherOptions};
 use crate::error::{Error, MeshError, OptionError, Result};
 use crate::field::{Features, Missing};
 use crate::mesh::TriMesh;
+use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// A method of smoothing with its options, for [`Smoother::apply`](super::Smoother::apply).
@@ -169,6 +170,8 @@ pub(super) fn apply(
 ) -> Result<Smoothed> {
     method.check(operators.options)?;
     let (mesh, channels) = (&operators.mesh, method.channels());
+    // The values of the result, and those of the part that has values; lists and marks of vertices.
+    memory::ensure((16 * channels.min(values.len()) + 16) as u64 * mesh.vertex_count() as u64)?;
     let missing = match method.missing() {
         Missing::Error => Vec::new(),
         Missing::Omit | Missing::Fill => missing_vertices(mesh, values, channels)?,

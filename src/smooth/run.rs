@@ -52,7 +52,7 @@ pub(super) fn run(
     let moved = unconstrained.map_or_else(Vec::new, |components| components.moved(&operators.active));
     let n = operators.mesh.vertex_count() as u64;
     // The results of all channels; values and normalised values of some, and one more in between.
-    memory::ensure(8 * n * channels.count() as u64 + (16 * channels.most_together() as u64 + 8) * n)?;
+    memory::ensure(8 * n * channels.count() as u64 + (16 * channels.most_together() as u64 + 16) * n)?;
     let mut interleaved = channels.to_interleaved();
     let mut reports = Vec::with_capacity(channels.count());
     let mut factor = None;
@@ -62,8 +62,8 @@ pub(super) fn run(
             factor = found.perturbation_factor;
         }
         stages.begin(Phase::Report, 0)?;
-        // The result twice, its difference, what the method measures, and an image by L.
-        memory::ensure(48 * n)?;
+        // The result twice, its difference, what the method measures, an image by L, and all that on the part with values.
+        memory::ensure(80 * n)?;
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(found.solutions)) {
             let mut x = channel.normalized.clone();
             if let Some(components) = unconstrained {

@@ -17,22 +17,8 @@ impl Buckets {
     }
 }
 
-/// Sorts the numbers from 0 below `items` into buckets by their keys, which lie below `buckets`. Stable: within a bucket the
+/// Sorts the numbers from 0 into `buckets` buckets by their keys, which a slice holds. Stable: within a bucket the
 /// numbers ascend.
-#[inline(never)]
-pub(crate) fn counting_sort(buckets: usize, items: u32, key: &dyn Fn(u32) -> u32) -> Buckets {
-    let mut offsets = offsets(buckets, &mut (0..items).map(key));
-    let mut sorted = vec![0; items as usize];
-    for item in 0..items {
-        let next = &mut offsets[key(item) as usize];
-        sorted[*next as usize] = item;
-        *next += 1;
-    }
-    rewind(&mut offsets);
-    Buckets { offsets, items: sorted }
-}
-
-/// Sorts the numbers from 0 into `buckets` buckets by their keys, which a slice holds. Stable like [`counting_sort`], and faster.
 #[inline(never)]
 pub(crate) fn grouped(keys: &[u32], buckets: usize) -> Buckets {
     let mut offsets = vec![0_u32; buckets + 1];

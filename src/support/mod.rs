@@ -6,4 +6,4 @@ pub(crate) mod memory;
 pub(crate) mod named;
 pub(crate) mod random;
 pub(crate) mod union_find;
-pub mod watch;
+pub(crate) mod watch;

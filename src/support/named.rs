@@ -1,6 +1,7 @@
 //! Names of choices: each choice has one name, which options, reports, messages and the command line all use.
 
 /// What has names, for code that reads choices of any kind.
+#[cfg_attr(not(feature = "bindings"), allow(dead_code, reason = "the bindings read choices"))]
 pub(crate) trait Named: Copy + 'static {
     /// All choices.
     const CHOICES: &'static [Self];

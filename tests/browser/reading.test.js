@@ -265,7 +265,7 @@ describe('simplifying', () => {
   });
 });
 
-describe('where simplification is impossible', () => {
+describe('where some extrema cannot be avoided', () => {
   // Two octahedra that share a vertex: the small one must have a minimum or a maximum of its own.
   const octahedron = ([x, y, z], r, ids) => ({
     corners: [
@@ -292,17 +292,24 @@ describe('where simplification is impossible', () => {
   const lines = ['OFF', `${points.length} 16 0`, ...points.map((point) => point.join(' '))];
   const off = [...lines, ...[...upper.faces, ...lower.faces].map((face) => `3 ${face.join(' ')}`), ''].join('\n');
 
-  test('the page says so, and goes back to what it shows', async () => {
+  test('the page removes the others and says so', async () => {
     await openTorus();
     expect(await page.after(() => page.drop('two.off', Buffer.from(off)))).toBe('ready');
     expect(await page.text('facts')).toMatch(/11 vertices.*16 triangles/);
     expect(await simplify()).toBe('ready');
-    const counts = await page.counts('after');
-    expect(await type('persistence-number', 0.5)).toBe('error');
-    expect(await page.text('notice-code')).toBe('UnavoidableExtremum');
-    expect(await page.at('persistence-number').inputValue()).toBe('0.1');
-    expect(await page.counts('after')).toEqual(counts);
-    expect(await type('persistence-number', 0.05)).toBe('ready');
+    await page.at('tab-report').click();
+    expect(await page.at('read-unavoidable').count()).toBe(0);
+    await page.at('tab-plots').click();
+    expect(await type('persistence-number', 0.5)).toBe('ready');
+    const { mesh } = readMesh(Buffer.from(off), { format: 'off' });
+    const values = mesh.positions().filter((_, k) => k % 3 === 0);
+    const { values: simple, unavoidable } = mesh.simplify(values, { threshold: 0.5 });
+    expect(unavoidable).toHaveLength(1);
+    await page.at('tab-report').click();
+    expect(await page.text('read-unavoidable')).toBe('1');
+    const { minima, maxima, saddles } = mesh.criticalPoints(simple).counts;
+    expect(await page.counts('after')).toEqual([minima, maxima, saddles]);
+    mesh.free();
     expect(await page.at('notice').isVisible()).toBe(false);
   });
 });

@@ -6,14 +6,14 @@ use morse_smooth::mesh::{TriMesh, WeldOptions, weld};
 use crate::check;
 
 /// Positions and triangles of a mesh with a name.
-pub struct Arrays {
+pub(crate) struct Arrays {
     pub name: String,
     pub positions: Vec<f64>,
     pub triangles: Vec<u32>,
 }
 
 /// Meshes of many kinds, of some thousand vertices and more.
-pub fn every_kind() -> Vec<Arrays> {
+pub(crate) fn every_kind() -> Vec<Arrays> {
     let mut all = Vec::new();
     let mut add = |name: &str, positions: Vec<f64>, triangles: Vec<u32>| {
         all.push(Arrays { name: format!("{name}, {} vertices", positions.len() / 3), positions, triangles });
@@ -64,7 +64,8 @@ fn meshes() {
         let mesh = check(&format!("a mesh of {name}"), 1.6, || TriMesh::new(positions, triangles).unwrap());
         check(&format!("the topology of {name}"), 1.5, || mesh.topology().unwrap());
         for share in [2, 5] {
-            check(&format!("a part of {name}"), 2.0, || {
+            // A part without triangles is an error, which takes memory as well.
+            let _ = check(&format!("a part of {name}"), 2.0, || {
                 mesh.submesh(&|v| v % 1000 < 200 * share).map(|part| part.vertices.len())
             });
         }

@@ -61,6 +61,8 @@ export interface AfterReport {
   /** Null where a field is simplified. */
   smoothing: SmoothReport | null;
   pairsRemoved: number | null;
+  /** Extrema that were to go, and without which there is no field on the mesh. */
+  unavoidable: number | null;
   milliseconds: number;
 }
 

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::grid::Grid;
-use super::{filtered, require};
+use super::{filtered, filtering_bytes, require};
 use crate::error::{Cancelled, OptionError, Result};
 use crate::field::Missing;
 use crate::mesh::{LinkKind, TriMesh};
@@ -86,6 +86,7 @@ impl Procedure for Bilateral<'_> {
     fn solve(&mut self, group: &[Channel], _: bool, stages: &mut Stages<'_, '_>) -> Result<Found> {
         let steps = (group.len() * self.options.iterations) as u64;
         stages.begin(Phase::Solve, self.points.ticks().saturating_mul(steps))?;
+        memory::ensure(filtering_bytes(group[0].values.len(), group.len()))?;
         let smooth = |channel: &Channel| self.smoothed(channel, stages.watch);
         let solutions = group.iter().map(smooth).collect::<Result<_>>()?;
         Ok(Found { solutions, perturbation_factor: None })

@@ -19,6 +19,7 @@ use crate::smooth::system::{ReducedSystem, Solved};
 use crate::smooth::systems::Systems;
 use crate::smooth::unconstrained::UnconstrainedComponents;
 use crate::smooth::{Energy, bounds};
+use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// Options of [`Smoother::interpolate`].
@@ -62,6 +63,8 @@ pub(in crate::smooth) fn start(
     });
     let mut stages = schedule.stages(watch);
     let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
+    // The unknowns, and the constraints once more.
+    memory::ensure(40 * operators.mesh.vertex_count() as u64)?;
     let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
     let mut free = components.remaining(&operators.active);
     free.retain(|v| set.vertices.binary_search(v).is_err());
@@ -94,6 +97,7 @@ impl Procedure for Interpolation<'_> {
         let perturbation_factor = if settings.bounds { self.perturbation_factor(&solved) } else { None };
         if self.system.energy() == Energy::Harmonic && self.certifier.is_none() {
             let Operators { mesh, laplacian, .. } = self.operators;
+            memory::ensure(2 * mesh.vertex_count() as u64 + 16 * laplacian.nnz() as u64)?;
             self.certifier = Some(Certifier::new(mesh.connectivity(), laplacian, self.system.free()));
         }
         Ok(Found { solutions: solutions(self.system.free(), solved), perturbation_factor })

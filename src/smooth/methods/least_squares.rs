@@ -14,6 +14,7 @@ use crate::smooth::run::run;
 use crate::smooth::schedule::{Forecast, Schedule, Work};
 use crate::smooth::systems::Systems;
 use crate::smooth::unconstrained::UnconstrainedComponents;
+use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// Options of [`Smoother::least_squares`].
@@ -61,6 +62,8 @@ pub(in crate::smooth) fn start(
     });
     let mut stages = schedule.stages(watch);
     let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
+    // The unknowns, and the constraints once more.
+    memory::ensure(40 * operators.mesh.vertex_count() as u64)?;
     let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
     let norm = Norm::Weights { vertices: set.vertices.clone(), weights: weights(&set, options)? };
     let unknowns = components.remaining(&operators.active);

@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{filtered, require};
+use super::{filtered, filtering_bytes, require};
 use crate::error::{OptionError, Result, SmoothError};
 use crate::field::Missing;
 #[cfg(doc)]
@@ -85,6 +85,7 @@ impl Procedure for LowPass<'_> {
         let step = 4 * (self.averages.offsets.len() + self.averages.neighbours.len()) as u64;
         let steps = group.len() * self.options.iterations * if self.options.mu == 0.0 { 1 } else { 2 };
         stages.begin(Phase::Solve, step.saturating_mul(steps as u64))?;
+        memory::ensure(filtering_bytes(self.averages.offsets.len(), group.len()))?;
         let smooth = |channel: &Channel| self.smoothed(channel, step, stages.watch);
         let solutions = group.iter().map(smooth).collect::<Result<_>>()?;
         Ok(Found { solutions, perturbation_factor: self.perturbation_factor })

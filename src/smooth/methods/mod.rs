@@ -26,6 +26,11 @@ fn settings(options: SmootherOptions, is_first: bool) -> SolverSettings {
     SolverSettings { choice: options.solver, precision: options.precision, bounds: options.bounds && is_first }
 }
 
+/// The bytes that filtering some channels takes: values of two steps, twice where they are sorted, and the results with their lists.
+fn filtering_bytes(vertices: usize, channels: usize) -> u64 {
+    (40 + 16 * channels as u64) * vertices as u64
+}
+
 /// What a filter made of a channel.
 fn filtered(channel: &Channel, x: &[f64], iterations: usize) -> Solution {
     // Scaling there and back rounds: what no step moved is not to change by that.

@@ -18,6 +18,7 @@ use crate::smooth::schedule::{Forecast, Schedule};
 use crate::smooth::systems::Systems;
 use crate::smooth::unconstrained::UnconstrainedComponents;
 use crate::smooth::{Metric, Operator, SmootherOptions, Unconstrained};
+use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// Options of [`Smoother::tikhonov`].
@@ -102,6 +103,7 @@ pub(in crate::smooth) fn start(
         (Operator::Paper, metric) => (Norm::new(metric, options.mass_scale), Equation::Mass),
     };
     let active = &operators.active;
+    memory::ensure(24 * operators.mesh.vertex_count() as u64)?;
     let unconstrained = match &input.gaps {
         None => None,
         Some(gaps) => {

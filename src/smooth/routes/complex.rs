@@ -16,6 +16,7 @@ use crate::smooth::Precision;
 use crate::smooth::names::Route;
 use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// The analysis of L, and the last factor of L + iD. A family of all ε will take one factor after the other from the same analysis,
@@ -26,6 +27,7 @@ type ComplexFactor = Factor<Complex<f64>, Complex<f32>>;
 
 /// Analyses the pattern of L.
 pub(super) fn analyse(task: &Task<'_>, watch: &Watch<'_>) -> Result<ComplexFactors, SolveError> {
+    memory::ensure((2 * size_of::<usize>() * task.problem.matrix.nnz()) as u64)?;
     Ok(Factors::new(CholeskyAnalysis::new(task.problem.matrix.pattern().clone(), watch)?))
 }
 
@@ -53,8 +55,11 @@ pub(super) fn solve(
 
 /// The values of L + iD.
 fn shifted(laplacian: &CscMatrix<f64>, shift: &[f64]) -> Vec<Complex<f64>> {
-    let entry = |(row, column, &value)| Complex::new(value, if row == column { shift[row] } else { 0.0 });
-    laplacian.triplet_iter().map(entry).collect()
+    let mut values = Vec::with_capacity(laplacian.nnz());
+    for (row, column, &value) in laplacian.triplet_iter() {
+        values.push(Complex::new(value, if row == column { shift[row] } else { 0.0 }));
+    }
+    values
 }
 
 /// x = −Im z with (L + iD) z = D f, refined in complex numbers; z is kept as its real parts, then its imaginary parts.

@@ -7,6 +7,7 @@ use crate::smooth::Precision;
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, CholeskyFactor, Scalar};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// A factor in double or single precision.
@@ -59,6 +60,7 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         };
         stages.begin(Phase::Factorization, 0)?;
         let watch = stages.watch;
+        memory::ensure((size_of::<D::Wide>() * self.analysis.pattern().nnz()) as u64)?;
         let values = values(&self.analysis);
         Ok(match (last, precision) {
             (Some((_, Factor::Double(mut factor))), Precision::Double) => {

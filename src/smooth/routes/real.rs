@@ -14,6 +14,7 @@ use crate::smooth::data_term::Mass;
 use crate::smooth::names::Route;
 use crate::smooth::schedule::Stages;
 use crate::solve::{CholeskyAnalysis, gram};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// The shares of assembling the matrix and of analysing its pattern.
@@ -32,6 +33,7 @@ impl RealRoute {
         let mut plan = watch.plan(&STEPS);
         plan.begin(0)?;
         let Problem { matrix, form } = task.problem;
+        memory::ensure(((size_of::<usize>() + size_of::<f64>()) * matrix.nnz() + 16 * matrix.ncols()) as u64)?;
         let system = match form {
             Form::Symmetric => matrix.clone(),
             Form::Normal { weights: None, .. } | Form::Regularized { weights: None, .. } => gram(matrix, watch)?,

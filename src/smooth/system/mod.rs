@@ -18,7 +18,7 @@ use crate::support::memory;
 /// Bytes of an entry of a sparse matrix, and those that solving takes for each unknown and channel beside the factor: the right-hand
 /// side, the solution, its residual and correction, each twice as long where the route is complex, and as complex numbers.
 const ENTRY: u64 = (size_of::<usize>() + size_of::<f64>()) as u64;
-const SOLVING: u64 = 88;
+const SOLVING: u64 = 128;
 
 /// Makes sure of the memory that solving takes beside the factor.
 fn ensure_solving(rows: usize, channels: usize) -> Result<(), OutOfMemory> {

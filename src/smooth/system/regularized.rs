@@ -49,7 +49,7 @@ impl RegularizedSystem {
     /// `unknowns`: ascending vertices that L ties to no others.
     pub(in crate::smooth) fn new(operators: &Operators, unknowns: &[u32], term: &Arc<DataTerm>) -> Result<Self> {
         // L, and B with the matrix that it is cut from.
-        memory::ensure(3 * ENTRY * operators.laplacian.nnz() as u64)?;
+        memory::ensure(4 * ENTRY * operators.laplacian.nnz() as u64)?;
         let all = unknowns.len() == operators.laplacian.ncols();
         let laplacian = if all { operators.laplacian.clone() } else { submatrix(&operators.laplacian, unknowns) };
         let weights = match operators.options.operator {
@@ -83,7 +83,7 @@ impl RegularizedSystem {
     pub(in crate::smooth) fn set_term(&mut self, operators: &Operators, term: &Arc<DataTerm>) -> Result<()> {
         let matrices = &mut self.matrices;
         if matrices.term != *term {
-            memory::ensure(2 * ENTRY * matrices.laplacian.nnz() as u64)?;
+            memory::ensure(3 * ENTRY * matrices.laplacian.nnz() as u64)?;
             matrices.mass = term.matrix(&operators.mesh, &matrices.unknowns)?;
             matrices.term = Arc::clone(term);
         }

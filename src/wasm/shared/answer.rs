@@ -109,6 +109,7 @@ impl Answer {
         self.set(name, &JsValue::from_bool(flag));
     }
 
+    #[allow(clippy::needless_pass_by_value, reason = "a part that was handed over is not to be changed")]
     pub(in crate::wasm) fn part(&self, name: &str, part: Self) {
         self.shortage.set(self.shortage.take().or(part.shortage.take()));
         self.set(name, &part.object);

@@ -46,7 +46,7 @@ impl Input {
                 bands: record.boolean("bands"),
                 critical_points: record.part("criticalPoints", PointInput::read),
                 morse_complex: record.part("morseComplex", ComplexInput::read),
-                missing: missing(record),
+                missing: record.choice("missing"),
                 ..Self::default()
             };
             if kind >= Kind::Picture {
@@ -116,10 +116,6 @@ fn colormap(record: &Record, option: &'static str) -> Option<Colormap> {
         OptionError::InvalidOption { expected, .. } => OptionError::invalid(option, &expected),
         other => other,
     }))
-}
-
-fn missing(record: &Record) -> Option<Missing> {
-    record.read("missing", "one of \"error\", \"omit\", \"fill\"", |value| Missing::from_name(&value.as_string()?))
 }
 
 fn camera(value: &JsValue) -> Result<Camera> {

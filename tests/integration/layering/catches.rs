@@ -198,7 +198,7 @@ fn files(sources: &[(&str, &str)]) -> Vec<(String, String)> {
 }
 
 /// A folder without an order; only circles are forbidden there.
-const FREE: Rules = Rules { layers: &[("a", &[]), ("b", &["a"])], orders: &[], platform: &[] };
+const FREE: Rules = Rules { layers: &[("a", &[]), ("b", &["a"])], orders: &[], platform: &[], state: &[] };
 
 #[test]
 fn circles_are_found_without_a_table() {

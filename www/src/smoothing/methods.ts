@@ -47,6 +47,7 @@ export class Methods {
       features: found?.features.length ?? null,
       smoothing: report,
       pairsRemoved: null,
+      unavoidable: null,
     };
   }
 
@@ -99,12 +100,13 @@ export class Methods {
   private simplified(before: Float64Array, settings: Settings, pairs: PersistencePairs): Result {
     const { persistence, overrides } = settings;
     const holes = omitting(before);
-    const { values } = this.mesh.simplify(before, {
+    const { values, unavoidable } = this.mesh.simplify(before, {
       ...(hasOverrides(overrides) ? { keep: keptExtrema(pairs, before, settings) } : { threshold: persistence }),
       ...holes,
     });
     const [low, high] = rangeOf(before);
     const range = high > low ? high - low : 1;
+    const dropped = pairs.extrema.length - keptPairs(pairs, thresholdOf(before, settings), overrides).length;
     let largest = 0;
     // What is missing differs by nothing.
     for (let i = 0; i < values.length; i++) largest = Math.max(largest, Math.abs(values[i]! - before[i]!) || 0);
@@ -119,7 +121,8 @@ export class Methods {
       sobolevAfter: sobolevOf(this.mesh, values) / range ** 2,
       features: null,
       smoothing: null,
-      pairsRemoved: pairs.extrema.length - keptPairs(pairs, thresholdOf(before, settings), overrides).length,
+      pairsRemoved: Math.max(0, dropped - unavoidable.length),
+      unavoidable: unavoidable.length,
     };
   }
 }

@@ -90,7 +90,7 @@ function methodOf(method: Method, { metric, energy, isDiffusion }: AfterReport['
 }
 
 function change(report: AfterReport): Group {
-  const { lInfinity, sobolevBefore, sobolevAfter, smoothing, pairsRemoved } = report;
+  const { lInfinity, sobolevBefore, sobolevAfter, smoothing, pairsRemoved, unavoidable } = report;
   const share = sobolevBefore > 0 ? ` (${percentage(sobolevAfter / sobolevBefore - 1)})` : '';
   const norm = smoothing && metricOf(report);
   return {
@@ -113,6 +113,14 @@ function change(report: AfterReport): Group {
       pairsRemoved === null
         ? null
         : line('Pairs removed', whole(pairsRemoved), 'Pairs of critical points that are gone', 'read-pairs'),
+      unavoidable
+        ? line(
+            'Extrema left',
+            whole(unavoidable),
+            'Extrema that were to go, but without which there is no field on this mesh: parts of it hang together in single vertices',
+            'read-unavoidable',
+          )
+        : null,
       smoothing && smoothing.perturbationFactor !== null
         ? line(
             'Error bound',
