@@ -97,7 +97,8 @@ fn factors_stop<K: Kind>() {
     assert!(before_end > 0.8, "{}: {before_end}", K::NAME);
     let mut factor = analysis.factor::<K>(&values, &Watch::none()).unwrap();
     check("solve", 1, |watch| factor.solve(&b, watch));
-    for question in [0, 1, all.len() / 2, all.len() - 1] {
+    let questions = heard(|watch| factor.refactor(&other, watch)).1.len();
+    for question in [0, 1, questions / 2, questions - 1] {
         let refactor = |watch: &Watch<'_>| factor.refactor(&other, watch);
         assert_eq!(stopped(question, refactor), Err(SolveError::Cancelled {}));
         assert_eq!(factor.solve(&b[..n], &Watch::none()), Err(SolveError::Cancelled {}), "no factor is left");

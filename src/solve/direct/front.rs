@@ -73,13 +73,14 @@ const PATIENCE: u64 = 1 << 17;
 
 /// Nanoseconds in WebAssembly for so many such products. Complex blocks are twice as long, and take four real products.
 const fn ticks<B>(products: u64) -> u64 {
-    products * (size_of::<B>() * size_of::<B>() / 512) as u64 * 4 / 5
+    (products / 5).saturating_mul(4 * (size_of::<B>() * size_of::<B>() / 512) as u64)
 }
 
 /// The ticks of the elimination of a front with so many columns and rows below.
 pub(super) fn elimination_ticks<B: LaneBlock>(columns: usize, rows: usize) -> u64 {
-    let (c, r) = (columns as u64, rows as u64);
-    ticks::<B>((c * c * c / 3 + c * c * r + c * r * r) / (2 * B::LANES as u64))
+    // In floating point, as fronts that fit no memory are counted, too.
+    let (c, r) = (columns as f64, rows as f64);
+    ticks::<B>(((c * c * c / 3.0 + c * c * r + c * r * r) / (2 * B::LANES) as f64) as u64)
 }
 
 /// Tells the watch of the products of one front from time to time.

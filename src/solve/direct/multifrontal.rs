@@ -56,7 +56,8 @@ pub(super) struct ScaledMatrix<'a, B: LaneBlock> {
 /// The ticks of setting up a front whose part of the factor and whose update take so many lane blocks, and of adding its
 /// update to its parent.
 fn assembly_ticks<B: LaneBlock>(factor: u64, update: u64) -> u64 {
-    500 + 2 * (factor + update) + 3 * B::LANES as u64 * update
+    let (blocks, moved) = (factor.saturating_add(update), update.saturating_mul(B::LANES as u64));
+    blocks.saturating_mul(2).saturating_add(moved.saturating_mul(3)).saturating_add(500)
 }
 
 /// The ticks of the whole factorisation.
@@ -64,9 +65,9 @@ pub(super) fn factorization_ticks<B: LaneBlock>(symbolic: &Symbolic) -> u64 {
     let of_front = |s| {
         let (columns, rows) = (symbolic.columns(s).len(), symbolic.rows_of(s).len());
         let (factor, update) = sizes::<B>(columns, rows);
-        assembly_ticks::<B>(factor, update) + elimination_ticks::<B>(columns, rows)
+        assembly_ticks::<B>(factor, update).saturating_add(elimination_ticks::<B>(columns, rows))
     };
-    (0..symbolic.fronts()).map(of_front).sum()
+    (0..symbolic.fronts()).map(of_front).fold(0, u64::saturating_add)
 }
 
 /// What a factorisation needs besides the factor, kept for the next one.
