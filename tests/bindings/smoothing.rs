@@ -231,11 +231,13 @@ fn progress_is_told_and_cannot_harm() {
     );
     smooth(&mesh, &f, &options).ok().expect("a solution");
     let told = Array::from(&get(&js_sys::global(), "told"));
-    let phases: Vec<String> = told.iter().map(|p| get(&p, "phase").as_string().expect("a phase")).collect();
-    assert_eq!(phases, ["analysis", "factorization", "solve", "report", "report"]);
+    let mut phases: Vec<String> = told.iter().map(|p| get(&p, "phase").as_string().expect("a phase")).collect();
+    // Each phase is told of several times in a row.
+    phases.dedup();
+    assert_eq!(phases, ["analysis", "factorization", "solve", "report"]);
     let fractions: Vec<f64> = told.iter().map(|p| number(&p, "fraction")).collect();
     assert!(fractions.windows(2).all(|pair| pair[0] <= pair[1]) && fractions.last() == Some(&1.0));
     let throwing = js("{ epsilon: 0.1, onProgress: () => { throw new Error('mine'); } }");
-    smooth(&mesh, &f, &throwing).ok().expect("a solution");
+    assert_eq!(thrown(smooth(&mesh, &f, &throwing)).0, "Cancelled");
     assert_eq!(thrown(smooth(&mesh, &f, &js("{ epsilon: 0.1, onProgress: 3 }"))).0, "InvalidOption");
 }
