@@ -120,6 +120,16 @@ function freed(object, read) {
   }
 }
 
+/** Whether two results are equal: quicker than the comparison that explains itself, which thousands of results are too many for. */
+function same(one, other) {
+  if (typeof one !== 'object' || one === null) return Object.is(one, other);
+  if (ArrayBuffer.isView(one)) {
+    return one.length === other?.length && one.every((value, k) => Object.is(value, other[k]));
+  }
+  const keys = Object.keys(one);
+  return keys.length === Object.keys(other ?? {}).length && keys.every((key) => same(one[key], other[key]));
+}
+
 /** What does not depend on how much memory there is: with less, a system may be solved in another way. */
 function comparable(result) {
   if (result?.report === undefined) return result;
@@ -149,7 +159,9 @@ describe('memory that runs out', () => {
         const error = shortage(() => {
           result = comparable(call(mesh));
         });
-        if (error === null) expect(result, `${name} at level ${level}`).toEqual(expected[name]);
+        if (error === null && !same(result, expected[name])) {
+          expect(result, `${name} at level ${level}`).toEqual(expected[name]);
+        }
         seen[name][error === null ? 'done' : 'short']++;
       }
       ballast.pop()?.free();
@@ -159,7 +171,8 @@ describe('memory that runs out', () => {
     expect(Object.values(seen).filter(({ short }) => short > 0).length).toBeGreaterThan(30);
     for (const [name, { done }] of Object.entries(seen)) expect(done, name).toBeGreaterThan(0);
     for (const rest of ballast) rest.free();
-    for (const [name, call] of Object.entries(calls)) expect(comparable(call(mesh)), name).toEqual(expected[name]);
+    for (const [name, call] of Object.entries(calls))
+      expect(same(comparable(call(mesh)), expected[name]), name).toBe(true);
     mesh.free();
   });
 
