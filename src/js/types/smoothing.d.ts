@@ -46,8 +46,21 @@ export interface SmootherOptions extends ProgressOptions {
   bounds?: boolean;
 }
 
+/** What smoothing makes of values that are missing, which are `NaN`. An infinite value is always an error (`NonFiniteValue`). */
+export interface FillOptions {
+  /**
+   * `"error"` (default): a missing value fails with `NonFiniteValue` (`vertex`). `"omit"`: triangles with a missing vertex are left
+   * out, as if the mesh had a hole there, and missing values come back as `NaN`. `"fill"`: smoothness is asked for on the whole mesh
+   * and the data term runs over the known vertices alone, so that gaps are filled smoothly. A vertex that is missing in one channel
+   * is missing in all.
+   */
+  missing?: 'error' | 'omit' | 'fill';
+}
+
 /** The options of Tikhonov smoothing. */
-export interface TikhonovOptions {
+export interface TikhonovOptions extends FillOptions {
+  /** With `missing: "fill"` alone: a component of the mesh without any value. Default `"error"`. */
+  unconstrained?: 'error' | 'keep' | 'mean';
   /**
    * ε > 0, without a unit (with scale `"raw"`: per area; with operator `"fem"`: per length⁴). Large keeps the field, small
    * smooths it; the range of interest is wide, say 1e-6 to 1e4 where ε has no unit.
@@ -60,7 +73,9 @@ export interface TikhonovOptions {
 }
 
 /** The options of Tikhonov smoothing with operator `"fem"`, by a length instead of ε. */
-export interface WavelengthOptions {
+export interface WavelengthOptions extends FillOptions {
+  /** With `missing: "fill"` alone: a component of the mesh without any value. Default `"error"`. */
+  unconstrained?: 'error' | 'keep' | 'mean';
   /**
    * Waves of this length ℓ, in the units of the mesh, are left with half their amplitude, shorter ones with less: ε is
    * (2π/ℓ)⁴. Sensible between the mean length of the edges and the diameter of the mesh. With operator `"paper"`, or beside
@@ -123,7 +138,7 @@ export interface KMeansConstraints {
 }
 
 /** The options of the methods with constraints. */
-export interface ConstraintOptions extends ChannelOptions {
+export interface ConstraintOptions extends ChannelOptions, FillOptions {
   constraints: Constraints;
   /**
    * What becomes of a component of the mesh without a constrained vertex: `"error"` (default) fails with `Unconstrained`
@@ -153,7 +168,7 @@ export interface LeastSquaresOptions extends ConstraintOptions {
 }
 
 /** The options of the low-pass filter. */
-export interface LowPassOptions extends ChannelOptions {
+export interface LowPassOptions extends ChannelOptions, MissingOptions {
   /** How often the filter is applied. 0 leaves the field as it is. */
   iterations: number;
   /** The λ of the step x ← x − λD⁻¹Lx, D the diagonal of L: above 0, up to 1. Default 0.5. */
@@ -166,7 +181,7 @@ export interface LowPassOptions extends ChannelOptions {
 }
 
 /** The options of the bilateral filter. */
-export interface BilateralOptions extends ChannelOptions {
+export interface BilateralOptions extends ChannelOptions, MissingOptions {
   /** How often the filter is applied. 0 leaves the field as it is. */
   iterations: number;
   /** Neighbours of a vertex are the vertices within this distance through space, in the units of the mesh. Positive. */
