@@ -1,6 +1,6 @@
 //! Constraints: vertices, or a rule that finds them.
 
-use js_sys::Uint32Array;
+use js_sys::{Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::{delta_of_constraints, threshold};
@@ -42,7 +42,7 @@ impl Constraining {
         if let Some(vertices) = value.dyn_ref::<Uint32Array>() {
             return Ok(Self { vertices: ids(vertices)?, rule: None, stars: false });
         }
-        if !value.is_object() {
+        if !value.is_object() || Array::is_array(value) {
             return Err(OptionError::invalid("constraints", Self::EXPECTED).into());
         }
         let (rule, stars, vertices) = read("constraints", value, |record| {
