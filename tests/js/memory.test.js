@@ -3,6 +3,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 // The entry for browsers, also in Node: it takes the code that it is given.
 import init, { Smoother, TriMesh, readField, readMesh, smooth, writeMesh } from 'morse-smooth/inline';
 import { random, square, tetrahedron } from './meshes.js';
+import { same } from './same.js';
 import { wasmBytes, withPages } from './wasm-bytes.js';
 
 /** 64 MiB. */
@@ -118,16 +119,6 @@ function freed(object, read) {
   } finally {
     object.free();
   }
-}
-
-/** Whether two results are equal: quicker than the comparison that explains itself, which thousands of results are too many for. */
-function same(one, other) {
-  if (typeof one !== 'object' || one === null) return Object.is(one, other);
-  if (ArrayBuffer.isView(one)) {
-    return one.length === other?.length && one.every((value, k) => Object.is(value, other[k]));
-  }
-  const keys = Object.keys(one);
-  return keys.length === Object.keys(other ?? {}).length && keys.every((key) => same(one[key], other[key]));
 }
 
 /** What does not depend on how much memory there is: with less, a system may be solved in another way. */
