@@ -98,8 +98,10 @@ describe('an instance that fails', () => {
       }
     };
     const thrown = thrownBy(deep);
-    // There may be room enough at the end of an engine's stack.
-    if (thrown?.code === 'InternalError') {
+    // There may be room enough at the end of an engine's stack, or too little to say at once what happened: the call from the next
+    // frame then hears that the instance is lost.
+    if (thrown !== undefined) {
+      expect(['InternalError', 'InstanceLost']).toContain(thrown.code);
       expectCode(() => mesh.vertexCount, 'InstanceLost');
       await init();
     }
@@ -131,7 +133,7 @@ describe.runIf(inNode)('in Node', () => {
       }
     };
     const thrown = thrownBy(deep);
-    if (thrown?.code === 'InternalError') expectCode(() => old.vertexCount, 'InstanceLost');
+    if (thrown !== undefined) expectCode(() => old.vertexCount, 'InstanceLost');
     old.free();
     const fresh = new main.TriMesh(shape.positions, shape.triangles);
     expect(fresh.persistence(values)).toEqual(expected);

@@ -62,7 +62,10 @@ export class Instance {
   }
 
   #refuseIfLost() {
-    if (this.#isLost) throw this.lostError();
+    if (!this.#isLost) return;
+    // Once more: where the stack was at its end, the first time may not have come through.
+    this.#glue.abandon();
+    throw this.lostError();
   }
 
   #lose(thrown) {
