@@ -1,13 +1,13 @@
 //! Interpolation of constrained values, eq. (6) of \[Patane09\].
 
 use super::regularized::solutions;
-use super::settings;
+use super::{constrained, settings};
 use crate::error::Result;
 use crate::field::Missing;
 #[cfg(doc)]
 use crate::smooth::Smoother;
 use crate::smooth::channels::Channel;
-use crate::smooth::constraints::{ConstraintSet, Constraints};
+use crate::smooth::constraints::Constraints;
 use crate::smooth::input::Input;
 use crate::smooth::maximum_principle::Certifier;
 use crate::smooth::names::{Equation, MethodName};
@@ -17,7 +17,6 @@ use crate::smooth::run::{Found, Procedure, run};
 use crate::smooth::schedule::{Forecast, Schedule, Stages, Work};
 use crate::smooth::system::{ReducedSystem, Solved};
 use crate::smooth::systems::Systems;
-use crate::smooth::unconstrained::UnconstrainedComponents;
 use crate::smooth::{Energy, bounds};
 use crate::support::memory;
 use crate::support::watch::Watch;
@@ -62,10 +61,7 @@ pub(in crate::smooth) fn start(
         groups: input.channels.group_count(),
     });
     let mut stages = schedule.stages(watch);
-    let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
-    // The unknowns, and the constraints once more.
-    memory::ensure(40 * operators.mesh.vertex_count() as u64)?;
-    let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
+    let (set, components) = constrained(input, &options.constraints, &mut stages)?;
     let mut free = components.remaining(&operators.active);
     free.retain(|v| set.vertices.binary_search(v).is_err());
     let system = systems.reduced(operators, options.energy, &free)?;

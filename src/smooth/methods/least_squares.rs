@@ -1,5 +1,6 @@
 //! Least squares with constraints, eq. (7) of \[Patane09\].
 
+use super::constrained;
 use super::regularized::{Regularized, term};
 use crate::error::{Result, SmoothError};
 use crate::field::{Features, Missing};
@@ -13,8 +14,6 @@ use crate::smooth::report::{About, Smoothed};
 use crate::smooth::run::run;
 use crate::smooth::schedule::{Forecast, Schedule, Work};
 use crate::smooth::systems::Systems;
-use crate::smooth::unconstrained::UnconstrainedComponents;
-use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// Options of [`Smoother::least_squares`].
@@ -61,10 +60,7 @@ pub(in crate::smooth) fn start(
         groups: input.channels.group_count(),
     });
     let mut stages = schedule.stages(watch);
-    let set = ConstraintSet::new(input, &options.constraints, &mut stages)?;
-    // The unknowns, and the constraints once more.
-    memory::ensure(40 * operators.mesh.vertex_count() as u64)?;
-    let components = UnconstrainedComponents::new(&operators.active, &set.vertices, options.constraints.unconstrained)?;
+    let (set, components) = constrained(input, &options.constraints, &mut stages)?;
     let norm = Norm::Weights { vertices: set.vertices.clone(), weights: weights(&set, options)? };
     let unknowns = components.remaining(&operators.active);
     // The weights are zero where values are missing, as no such vertex is constrained.

@@ -16,14 +16,32 @@ pub use tikhonov::{TikhonovOptions, epsilon_for_wavelength};
 
 use super::SmootherOptions;
 use super::channels::Channel;
+use super::constraints::{ConstraintSet, Constraints};
+use super::input::Input;
 use super::report::SolverReport;
 use super::routes::SolverSettings;
 use super::run::Solution;
-use crate::error::OptionError;
+use super::schedule::Stages;
+use super::unconstrained::UnconstrainedComponents;
+use crate::error::{OptionError, Result};
+use crate::support::memory;
 
 /// How systems are to be solved. Bounds are the same for all channels, and so are computed with the first ones.
 fn settings(options: SmootherOptions, is_first: bool) -> SolverSettings {
     SolverSettings { choice: options.solver, precision: options.precision, bounds: options.bounds && is_first }
+}
+
+/// The vertices that are constrained, and the components of the mesh without any.
+fn constrained(
+    input: &Input<'_>,
+    constraints: &Constraints<'_>,
+    stages: &mut Stages<'_, '_>,
+) -> Result<(ConstraintSet, UnconstrainedComponents)> {
+    let set = ConstraintSet::new(input, constraints, stages)?;
+    // The unknowns, and the constraints once more.
+    memory::ensure(40 * input.operators.mesh.vertex_count() as u64)?;
+    let components = UnconstrainedComponents::new(&input.operators.active, &set.vertices, constraints.unconstrained)?;
+    Ok((set, components))
 }
 
 /// The bytes that filtering some channels takes: values of two steps, twice where they are sorted, and the results with their lists.
