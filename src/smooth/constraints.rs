@@ -68,7 +68,7 @@ impl Constraints<'_> {
 }
 
 /// The vertices that the rules came to.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ConstraintSet {
     /// The feature points, without stars. Ascending.
     pub(super) features: Vec<u32>,

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use super::channels::Channels;
 use super::input::Input;
 use super::methods::{
-    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions, bilateral, interpolate,
-    least_squares, low_pass, tikhonov,
+    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Regularization, TikhonovOptions,
+    bilateral, interpolate, least_squares, low_pass, tikhonov,
 };
 use super::missing::{Gaps, Part, missing_vertices, to_whole};
 use super::names::MethodName;
 use super::operators::Operators;
 use super::report::Smoothed;
+use super::schedule::Stages;
 use super::systems::Systems;
 use super::{Constraints, SmootherOptions};
 use crate::error::{Error, MeshError, OptionError, Result};
@@ -117,6 +118,18 @@ impl<'a> Method<'a> {
         Ok(())
     }
 
+    /// What is solved, whatever ε is, by the methods that have one.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub(super) fn regularization(&self, input: &Input<'_>, stages: &mut Stages<'_, '_>) -> Result<Regularization> {
+        match self {
+            Self::Tikhonov(options) => tikhonov::regularization(input, options),
+            Self::LeastSquares(options) => least_squares::regularization(input, options, stages),
+            _ => Err(OptionError::invalid("method", "`tikhonov` or `leastSquares`").into()),
+        }
+    }
+
     fn start(&self, input: &Input<'_>, systems: &mut Systems, watch: &Watch<'_>) -> Result<Smoothed> {
         match self {
             Self::Tikhonov(options) => tikhonov::start(input, systems, options, watch),
@@ -136,11 +149,17 @@ pub(super) struct Masked(Option<Mask>);
 struct Mask {
     missing: Arc<[u32]>,
     /// Nothing where no triangle has three values.
-    part: Option<Part>,
+    part: Option<Arc<Part>>,
     systems: Systems,
 }
 
 impl Masked {
+    /// The systems of a part, if it is the one of the last call.
+    pub(super) fn of_part(&mut self, part: &Arc<Part>) -> Option<&mut Systems> {
+        let mask = self.0.as_mut()?;
+        mask.part.as_ref().is_some_and(|known| Arc::ptr_eq(known, part)).then_some(&mut mask.systems)
+    }
+
     /// That of these missing vertices.
     fn get(&mut self, mesh: &TriMesh, missing: &[u32], options: SmootherOptions) -> Result<&mut Mask> {
         if self.0.as_ref().is_some_and(|mask| *mask.missing != *missing) {
@@ -151,7 +170,7 @@ impl Masked {
             none => {
                 let part = match Part::without(mesh, missing, options) {
                     Err(Error::Mesh(MeshError::EmptyMesh { .. })) => None,
-                    part => Some(part?),
+                    part => Some(Arc::new(part?)),
                 };
                 Ok(none.insert(Mask { missing: missing.into(), part, systems: Systems::default() }))
             }
@@ -159,15 +178,38 @@ impl Masked {
     }
 }
 
-/// Smooths by a method, with what is missing left out or filled in as its options say.
+/// Smooths by a method.
 pub(super) fn apply(
-    operators: &Operators,
+    operators: &Arc<Operators>,
     systems: &mut Systems,
     masked: &mut Masked,
     values: &[f64],
     method: &Method<'_>,
     watch: &Watch<'_>,
 ) -> Result<Smoothed> {
+    let start =
+        &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| method.start(input, systems, watch);
+    let (smoothed, part) = on_input(operators, systems, masked, values, method, start)?;
+    Ok(match part {
+        None => smoothed,
+        Some(part) => {
+            let mut whole = values.to_vec();
+            part.scatter(&smoothed.values, method.channels(), &mut whole);
+            Smoothed { values: whole, reports: smoothed.reports }
+        }
+    })
+}
+
+/// Does something with the field that a method smooths, and with its systems: with what is missing left out or to be filled in, as the
+/// method's options say. Where it is left out, the method's constraints are vertices of the part that is returned.
+pub(super) fn on_input<T>(
+    operators: &Arc<Operators>,
+    systems: &mut Systems,
+    masked: &mut Masked,
+    values: &[f64],
+    method: &Method<'_>,
+    work: &mut dyn FnMut(&Input<'_>, &mut Systems, &Method<'_>) -> Result<T>,
+) -> Result<(T, Option<Arc<Part>>)> {
     method.check(operators.options)?;
     let (mesh, channels) = (&operators.mesh, method.channels());
     // The values of the result, and those of the part that has values; lists and marks of vertices.
@@ -178,13 +220,13 @@ pub(super) fn apply(
     };
     if missing.is_empty() {
         let input = Input { operators, channels: Channels::new(mesh, values, channels, None)?, gaps: None };
-        return method.start(&input, systems, watch);
+        return Ok((work(&input, systems, method)?, None));
     }
     let mask = masked.get(mesh, &missing, operators.options)?;
     if method.missing() == Missing::Fill {
         let gaps = Gaps { missing: Arc::clone(&mask.missing), known: mask.part.as_ref() };
         let channels = Channels::new(mesh, values, channels, Some(&gaps))?;
-        return method.start(&Input { operators, channels, gaps: Some(gaps) }, systems, watch);
+        return Ok((work(&Input { operators, channels, gaps: Some(gaps) }, systems, method)?, None));
     }
     let Some(part) = &mask.part else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
     let listed = match method.constraints() {
@@ -197,8 +239,6 @@ pub(super) fn apply(
     let of_part = part.gather(values, channels);
     let channels_of_part = Channels::new(&part.operators.mesh, &of_part, channels, None)?;
     let input = Input { operators: &part.operators, channels: channels_of_part, gaps: None };
-    let smoothed = method.start(&input, &mut mask.systems, watch).map_err(|error| to_whole(&part.vertices, error))?;
-    let mut whole = values.to_vec();
-    part.scatter(&smoothed.values, channels, &mut whole);
-    Ok(Smoothed { values: whole, reports: smoothed.reports })
+    let done = work(&input, &mut mask.systems, &method).map_err(|error| to_whole(&part.vertices, error))?;
+    Ok((done, Some(Arc::clone(part))))
 }

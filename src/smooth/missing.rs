@@ -12,7 +12,7 @@ use crate::smooth::SmootherOptions;
 pub(super) struct Part {
     /// For every vertex of the part its id in the whole mesh; ascending.
     pub(super) vertices: Vec<u32>,
-    pub(super) operators: Operators,
+    pub(super) operators: Arc<Operators>,
 }
 
 /// Vertices without a value that smoothing is to fill in.
@@ -21,7 +21,7 @@ pub(super) struct Gaps<'a> {
     /// Those vertices, ascending.
     pub(super) missing: Arc<[u32]>,
     /// The part of the mesh with values; nothing where no triangle has three.
-    pub(super) known: Option<&'a Part>,
+    pub(super) known: Option<&'a Arc<Part>>,
 }
 
 impl Gaps<'_> {
@@ -64,7 +64,7 @@ impl Part {
         missing.iter().for_each(|&v| has[v as usize] = false);
         let Submesh { mesh: part, vertices, .. } = mesh.submesh(&|v| has[v as usize])?;
         let operators = Operators::new(&part, options).map_err(|error| to_whole(&vertices, error))?;
-        Ok(Self { vertices, operators })
+        Ok(Self { vertices, operators: Arc::new(operators) })
     }
 
     /// The values of the part among those of the whole mesh, `channels` for each vertex.

@@ -5,6 +5,7 @@ mod bounds;
 mod channels;
 mod constraints;
 mod data_term;
+mod family;
 mod input;
 mod maximum_principle;
 mod method;
@@ -22,6 +23,7 @@ mod systems;
 mod unconstrained;
 
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
+pub use family::{Family, FamilyMethod, FamilyOptions};
 pub use maximum_principle::MaximumPrinciple;
 pub use method::Method;
 pub use methods::{
@@ -31,6 +33,8 @@ pub use names::{Equation, MethodName, Route, UsedPrecision};
 pub use options::{Metric, Operator, Precision, SmootherOptions, SolverChoice};
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
 pub use system::Energy;
+
+use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 
@@ -60,7 +64,7 @@ use systems::Systems;
 /// ```
 #[derive(Debug)]
 pub struct Smoother {
-    operators: Operators,
+    operators: Arc<Operators>,
     systems: Systems,
     masked: Masked,
 }
@@ -72,7 +76,7 @@ impl Smoother {
     /// `ZeroWeightSum` for normalised weights; `InapplicableOption` for the finite-element operator with weights other than
     /// cotangent, for which it means nothing.
     pub fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
-        let operators = Operators::new(mesh, options)?;
+        let operators = Arc::new(Operators::new(mesh, options)?);
         Ok(Self { operators, systems: Systems::default(), masked: Masked::default() })
     }
 
@@ -281,6 +285,49 @@ impl Smoother {
     /// ```
     pub fn bilateral(&self, values: &[f64], options: &BilateralOptions) -> Result<Smoothed> {
         self.filter(values, &Method::Bilateral(*options))
+    }
+
+    /// The smoothed fields for every ε of a range at once: about a dozen factorisations, after which each ε costs a product with a few
+    /// dozen vectors.
+    ///
+    /// # Definition
+    /// See [`FamilyOptions`] and [`Family`]. x(ε) = (LᵀWL + εB)⁻¹εBf is sought in the space of f, its means, and the solutions with their
+    /// first two derivatives at some shifts ε_k, by Galerkin's condition: of all fields in the space it is the nearest one to the solution in the
+    /// norm of LᵀWL + εB. Each shift is taken where the estimated error is largest.
+    ///
+    /// # Properties
+    /// ‖x − f‖_B falls and ‖Lx‖ grows with ε. [`Family::error_estimate`] is an estimate, not a bound: compared with exact solutions it was
+    /// between a third of the largest error and ten times as large.
+    ///
+    /// # Errors
+    /// Those of the method; `InvalidOption` for the range and the tolerance; `Cancelled`.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{FamilyOptions, Smoother, SmootherOptions};
+    /// use morse_smooth::Watch;
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let family = smoother.family(&field, &FamilyOptions::default(), &Watch::none())?;
+    /// assert!(family.error_estimate() <= 1e-6);
+    /// for epsilon in [1e-4, 1e-2, 1.0] {
+    ///     assert_eq!(family.values(epsilon)?.len(), field.len());
+    /// }
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn family(&mut self, values: &[f64], options: &FamilyOptions<'_>, watch: &Watch<'_>) -> Result<Family> {
+        Family::new(&self.operators, &mut self.systems, &mut self.masked, values, options, watch)
+    }
+
+    /// Adds a shift to a family that was made with a limit of factorisations; whether it is complete then.
+    ///
+    /// # Errors
+    /// `InvalidOption` for a family of another smoother; those of the solver; `Cancelled`, after which the family is as it was.
+    pub fn grow(&mut self, family: &mut Family, watch: &Watch<'_>) -> Result<bool> {
+        family.grow(&self.operators, &mut self.systems, &mut self.masked, watch)
     }
 
     /// Applies a method that solves no system, and so has nothing to keep.

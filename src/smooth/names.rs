@@ -58,13 +58,15 @@ pub enum Route {
     CgMultigrid,
     /// By conjugate gradients that the diagonal preconditions, without a factor.
     CgJacobi,
+    /// From the space of a family, without a factor.
+    Family,
     /// There was nothing to solve.
     None,
 }
 
 named! { Route {
     ComplexCholesky = "complexCholesky", Cholesky = "cholesky", CgComplexCholesky = "cgComplexCholesky",
-    CgMultigrid = "cgMultigrid", CgJacobi = "cgJacobi", None = "none",
+    CgMultigrid = "cgMultigrid", CgJacobi = "cgJacobi", Family = "family", None = "none",
 } }
 
 /// The precision of the factor that a system was solved with.

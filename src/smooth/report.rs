@@ -127,6 +127,7 @@ fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
 }
 
 /// What reports say of a method, and what it leaves to the loop over channels.
+#[derive(Debug, Clone)]
 pub(super) struct About {
     pub(super) method: MethodName,
     pub(super) equation: Equation,

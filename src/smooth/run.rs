@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::channels::Channel;
 use super::constraints::level_constant_components;
 use super::input::Input;
+use super::operators::Operators;
 use super::report::{About, Facts, Measures, Smoothed, SolverReport, measure};
 use super::schedule::Stages;
 use crate::error::Result;
@@ -13,8 +14,8 @@ use crate::support::watch::Phase;
 
 /// What finds the smooth values: a linear system, or the steps of a filter.
 ///
-/// A family of all ε is no such procedure, as it has no values to return: it will be a function beside [`run`] that borrows the same
-/// system. An interior-point method is one, whose `solve` factors several times.
+/// A family of all ε is one, too, where it is asked for the values and the report of one ε; building it is not. An interior-point method
+/// is one, whose `solve` factors several times.
 pub(super) trait Procedure {
     /// Finds the values of channels that are solved for together. `is_first`: whether they are the first ones, for which alone
     /// bounds are computed.
@@ -40,6 +41,30 @@ pub(super) struct Solution {
     pub(super) solver: SolverReport,
 }
 
+/// The values of a channel from those that some vertices have got: normalised, and in the units of the input.
+pub(super) fn whole(
+    operators: &Operators,
+    about: &About,
+    channel: &Channel,
+    vertices: &[u32],
+    solution: &[f64],
+) -> (Vec<f64>, Vec<f64>) {
+    let mut x = channel.normalized.clone();
+    let mut moved = Vec::new();
+    if let Some(components) = &about.unconstrained {
+        components.write(&operators.active, &channel.values, &mut x);
+        moved = components.moved(&operators.active);
+    }
+    for (&v, &value) in vertices.iter().zip(solution) {
+        x[v as usize] = value;
+    }
+    let mut values = channel.restored(&x, vertices.iter().chain(&moved));
+    if let Some(set) = &about.constraints {
+        level_constant_components(&operators.active, set, channel, &mut x, &mut values);
+    }
+    (x, values)
+}
+
 /// Smooths all channels, some at a time.
 pub(super) fn run(
     input: &Input<'_>,
@@ -48,8 +73,6 @@ pub(super) fn run(
     mut stages: Stages<'_, '_>,
 ) -> Result<Smoothed> {
     let Input { operators, channels, .. } = input;
-    let unconstrained = about.unconstrained.as_ref();
-    let moved = unconstrained.map_or_else(Vec::new, |components| components.moved(&operators.active));
     let n = operators.mesh.vertex_count() as u64;
     // The results of all channels; values and normalised values of some, and one more in between.
     memory::ensure(8 * n * channels.count() as u64 + (16 * channels.most_together() as u64 + 16) * n)?;
@@ -65,17 +88,7 @@ pub(super) fn run(
         // The result twice, its difference, what the method measures, an image by L, and all that on the part with values.
         memory::ensure(80 * n)?;
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(found.solutions)) {
-            let mut x = channel.normalized.clone();
-            if let Some(components) = unconstrained {
-                components.write(&operators.active, &channel.values, &mut x);
-            }
-            for (&v, &value) in solution.vertices.iter().zip(&solution.x) {
-                x[v as usize] = value;
-            }
-            let mut values = channel.restored(&x, solution.vertices.iter().chain(&moved));
-            if let Some(set) = &about.constraints {
-                level_constant_components(&operators.active, set, channel, &mut x, &mut values);
-            }
+            let (x, values) = whole(operators, about, channel, &solution.vertices, &solution.x);
             let facts = Facts {
                 measures: procedure.measures(&x, &channel.normalized),
                 perturbation_factor: factor,

@@ -5,7 +5,7 @@ use super::constraints::Unconstrained;
 use crate::error::SmoothError;
 
 /// The components that have no constrained vertex (no vertex with a value, where all of these count): their vertices are no unknowns.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct UnconstrainedComponents {
     /// Per component.
     is_unconstrained: Vec<bool>,

@@ -1,7 +1,7 @@
 //! Least squares with constraints, eq. (7) of \[Patane09\].
 
 use super::constrained;
-use super::regularized::{Regularized, term};
+use super::regularized::{Regularization, Regularized, term};
 use crate::error::{Result, SmoothError};
 use crate::field::{Features, Missing};
 #[cfg(doc)]
@@ -12,7 +12,7 @@ use crate::smooth::input::Input;
 use crate::smooth::names::{Equation, MethodName};
 use crate::smooth::report::{About, Smoothed};
 use crate::smooth::run::run;
-use crate::smooth::schedule::{Forecast, Schedule, Work};
+use crate::smooth::schedule::{Forecast, Schedule, Stages, Work};
 use crate::smooth::systems::Systems;
 use crate::support::watch::Watch;
 
@@ -60,11 +60,23 @@ pub(in crate::smooth) fn start(
         groups: input.channels.group_count(),
     });
     let mut stages = schedule.stages(watch);
-    let (set, components) = constrained(input, &options.constraints, &mut stages)?;
+    let Regularization { about, unknowns, term } = regularization(input, options, &mut stages)?;
+    let system = systems.regularized(operators, &unknowns, &term)?;
+    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
+    run(input, &about, &mut procedure, stages)
+}
+
+/// What is solved, whatever ε is.
+pub(in crate::smooth) fn regularization(
+    input: &Input<'_>,
+    options: &LeastSquaresOptions<'_>,
+    stages: &mut Stages<'_, '_>,
+) -> Result<Regularization> {
+    let operators = input.operators;
+    let (set, components) = constrained(input, &options.constraints, stages)?;
     let norm = Norm::Weights { vertices: set.vertices.clone(), weights: weights(&set, options)? };
     let unknowns = components.remaining(&operators.active);
     // The weights are zero where values are missing, as no such vertex is constrained.
-    let system = systems.regularized(operators, &unknowns, &term(norm, None))?;
     let about = About {
         method: MethodName::LeastSquares,
         equation: Equation::LeastSquares,
@@ -72,8 +84,7 @@ pub(in crate::smooth) fn start(
         constraints: Some(set),
         unconstrained: Some(components),
     };
-    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
-    run(input, &about, &mut procedure, stages)
+    Ok(Regularization { about, unknowns, term: term(norm, None) })
 }
 
 /// One weight for each constrained vertex in ascending order.

@@ -12,6 +12,7 @@ pub use bilateral::BilateralOptions;
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use low_pass::LowPassOptions;
+pub(super) use regularized::Regularization;
 pub use tikhonov::{TikhonovOptions, epsilon_for_wavelength};
 
 use super::SmootherOptions;
@@ -19,7 +20,7 @@ use super::channels::Channel;
 use super::constraints::{ConstraintSet, Constraints};
 use super::input::Input;
 use super::report::SolverReport;
-use super::routes::SolverSettings;
+use super::routes::{Accuracy, SolverSettings};
 use super::run::Solution;
 use super::schedule::Stages;
 use super::unconstrained::UnconstrainedComponents;
@@ -27,8 +28,13 @@ use crate::error::{OptionError, Result};
 use crate::support::memory;
 
 /// How systems are to be solved. Bounds are the same for all channels, and so are computed with the first ones.
-fn settings(options: SmootherOptions, is_first: bool) -> SolverSettings {
-    SolverSettings { choice: options.solver, precision: options.precision, bounds: options.bounds && is_first }
+pub(super) fn settings(options: SmootherOptions, is_first: bool) -> SolverSettings {
+    SolverSettings {
+        choice: options.solver,
+        precision: options.precision,
+        bounds: options.bounds && is_first,
+        accuracy: Accuracy::Full,
+    }
 }
 
 /// The vertices that are constrained, and the components of the mesh without any.

@@ -9,10 +9,18 @@ use crate::smooth::bounds;
 use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
 use crate::smooth::missing::Gaps;
-use crate::smooth::report::{Measures, SolverReport};
+use crate::smooth::report::{About, Measures, SolverReport};
 use crate::smooth::run::{Found, Procedure, Solution};
 use crate::smooth::schedule::Stages;
 use crate::smooth::system::{RegularizedSystem, Solved};
+
+/// What is solved, whatever ε is.
+pub(in crate::smooth) struct Regularization {
+    pub(in crate::smooth) about: About,
+    /// The unknowns, ascending.
+    pub(in crate::smooth) unknowns: Vec<u32>,
+    pub(in crate::smooth) term: Arc<DataTerm>,
+}
 
 /// One of these systems with its ε.
 pub(super) struct Regularized<'a> {

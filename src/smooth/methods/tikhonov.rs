@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::regularized::{Regularized, term};
+use super::regularized::{Regularization, Regularized, term};
 use super::settings;
 use crate::error::{OptionError, Result};
 use crate::field::Missing;
@@ -97,6 +97,18 @@ pub(in crate::smooth) fn start(
     watch: &Watch<'_>,
 ) -> Result<Smoothed> {
     let operators = input.operators;
+    let Regularization { about, unknowns, term } = regularization(input, options)?;
+    let system = systems.regularized(operators, &unknowns, &term)?;
+    let (work, analysis, factorization) = system.forecast(options.epsilon, settings(operators.options, true));
+    let groups = input.channels.group_count();
+    let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
+    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
+    run(input, &about, &mut procedure, schedule.stages(watch))
+}
+
+/// What is solved, whatever ε is.
+pub(in crate::smooth) fn regularization(input: &Input<'_>, options: &TikhonovOptions) -> Result<Regularization> {
+    let operators = input.operators;
     let (norm, equation) = match (operators.options.operator, options.metric) {
         (Operator::Fem, _) => (Norm::Lumped(MassScale::Raw), Equation::Fem),
         (Operator::Paper, Metric::Identity) => (Norm::Identity, Equation::Identity),
@@ -112,11 +124,7 @@ pub(in crate::smooth) fn start(
         }
     };
     let unknowns = unconstrained.as_ref().map(|components| components.remaining(active));
-    let unknowns = unknowns.as_deref().unwrap_or(active.list());
-    let system = systems.regularized(operators, unknowns, &term(norm, input.gaps.as_ref()))?;
-    let (work, analysis, factorization) = system.forecast(options.epsilon, settings(operators.options, true));
-    let groups = input.channels.group_count();
-    let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
+    let unknowns = unknowns.unwrap_or_else(|| active.list().to_vec());
     let about = About {
         method: MethodName::Tikhonov,
         equation,
@@ -124,8 +132,7 @@ pub(in crate::smooth) fn start(
         constraints: None,
         unconstrained,
     };
-    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
-    run(input, &about, &mut procedure, schedule.stages(watch))
+    Ok(Regularization { about, unknowns, term: term(norm, input.gaps.as_ref()) })
 }
 
 /// # Errors

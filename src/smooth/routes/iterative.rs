@@ -5,6 +5,7 @@ use super::problem::{Form, SymmetricPart};
 use super::refine::{Iterate, Refinement, refine};
 use super::task::{Answer, Task};
 use crate::error::{Cancelled, SolveError};
+use crate::smooth::Precision;
 use crate::smooth::names::{Route, UsedPrecision};
 use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
 use crate::support::watch::{Phase, Watch};
@@ -20,8 +21,6 @@ const MOST_PRECONDITIONED: usize = 200;
 const MOST_ROUGHLY_PRECONDITIONED: usize = 2000;
 /// The inner tolerance of a second attempt.
 const TIGHT: f64 = 1e-8;
-/// The relative error at which refinement stops.
-const TOLERANCE: f64 = 1e-16;
 
 /// The shares of making a preconditioner, of the solution, and of another attempt or of an eigenvalue.
 const STEPS: [(Phase, f64); 3] = [(Phase::Solve, 1.0), (Phase::Solve, 8.0), (Phase::Solve, 4.0)];
@@ -139,7 +138,7 @@ fn refined_within(
     let refinement = Refinement {
         count: task.right_hand_sides.len(),
         length: n,
-        tolerance: TOLERANCE,
+        tolerance: task.tolerance(Precision::Double),
         inverse_norm: None,
         ticks: task.problem.ticks(),
         residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),

@@ -26,7 +26,7 @@ use complex::ComplexFactors;
 pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
 use real::RealRoute;
 use refine::Iterate;
-pub(super) use task::{Answer, FactorKey, SolverSettings, Task};
+pub(super) use task::{Accuracy, Answer, FactorKey, SolverSettings, Task};
 
 /// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL, whose cost
 /// grows faster: estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).

@@ -30,7 +30,7 @@ pub(super) struct Refinement<'a> {
     pub(super) count: usize,
     /// Length of each solution.
     pub(super) length: usize,
-    /// The relative error that is small enough.
+    /// The relative error that is small enough; infinite where the first solution is.
     pub(super) tolerance: f64,
     /// A bound of the norm of the matrix's inverse, where one is known: with it a residual tells that no correction is needed.
     pub(super) inverse_norm: Option<f64>,
@@ -86,7 +86,7 @@ pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iter
             iterate.x.iter_mut().zip(correction).for_each(|(x, d)| *x += d);
             // The first solution is no correction: what it is corrected by tells how good it was.
             if step == 0 {
-                still_open.push(c);
+                still_open.extend(tolerance.is_finite().then_some(c));
                 continue;
             }
             let shrunk = size / previous[c];

@@ -19,6 +19,16 @@ pub(in crate::smooth) struct SolverSettings {
     pub(in crate::smooth) precision: Precision,
     /// Whether the smallest eigenvalue is wanted, too.
     pub(in crate::smooth) bounds: bool,
+    pub(in crate::smooth) accuracy: Accuracy,
+}
+
+/// How good solutions have to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::smooth) enum Accuracy {
+    /// Refined to rounding.
+    Full,
+    /// As a solver in double precision gives them, unrefined: good enough where only the space that they span matters.
+    Rough,
 }
 
 /// What a factor belongs to, within one system. A method that factors for many ε in turn, or for steps of an interior-point
@@ -71,6 +81,10 @@ impl Task<'_> {
 
     /// Refines to the accuracy of the precision.
     pub(super) fn tolerance(&self, precision: Precision) -> f64 {
-        if precision == Precision::Single { SINGLE } else { DOUBLE }
+        match (precision, self.settings.accuracy) {
+            (Precision::Double, Accuracy::Rough) => f64::INFINITY,
+            (Precision::Double, Accuracy::Full) => DOUBLE,
+            (Precision::Single, _) => SINGLE,
+        }
     }
 }

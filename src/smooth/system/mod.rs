@@ -8,7 +8,7 @@ mod regularized;
 
 pub use reduced::Energy;
 pub(super) use reduced::ReducedSystem;
-pub(super) use regularized::RegularizedSystem;
+pub(super) use regularized::{Matrices, RegularizedSystem};
 
 use super::names::{Route, UsedPrecision};
 use super::routes::{Answer, Problem, RightHandSide};

@@ -26,19 +26,19 @@ const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 /// A family of all ε solves this system for one ε after the other, with right-hand sides of its own, on one analysis.
 #[derive(Debug)]
 pub(in crate::smooth) struct RegularizedSystem {
-    matrices: Matrices,
+    matrices: Arc<Matrices>,
     routes: Routes,
 }
 
-/// The matrices that the system is made from.
+/// The matrices that the system is made from, shared with the families of its solutions.
 #[derive(Debug)]
-struct Matrices {
+pub(in crate::smooth) struct Matrices {
     /// The vertices that are unknowns, ascending.
     unknowns: Arc<[u32]>,
     /// L on the unknowns.
-    laplacian: CscMatrix<f64>,
+    laplacian: Arc<CscMatrix<f64>>,
     /// The diagonal of W: the inverse lumped masses for the finite-element operator, nothing for the paper's.
-    weights: Option<Vec<f64>>,
+    weights: Option<Arc<[f64]>>,
     is_symmetric: bool,
     /// The data term, and its matrix B.
     term: Arc<DataTerm>,
@@ -56,18 +56,18 @@ impl RegularizedSystem {
             Operator::Paper => None,
             Operator::Fem => {
                 let areas = lumped_mass_diagonal(&operators.mesh, MassScale::Raw)?;
-                Some(unknowns.iter().map(|&v| areas[v as usize].recip()).collect())
+                Some(unknowns.iter().map(|&v| areas[v as usize].recip()).collect::<Arc<[f64]>>())
             }
         };
         let matrices = Matrices {
-            laplacian,
+            laplacian: Arc::new(laplacian),
             weights,
             is_symmetric: operators.is_symmetric(),
             mass: term.matrix(&operators.mesh, unknowns)?,
             term: Arc::clone(term),
             unknowns: unknowns.into(),
         };
-        Ok(Self { matrices, routes: Routes::default() })
+        Ok(Self { matrices: Arc::new(matrices), routes: Routes::default() })
     }
 
     pub(in crate::smooth) fn unknowns(&self) -> &Arc<[u32]> {
@@ -79,13 +79,23 @@ impl RegularizedSystem {
         &self.matrices.mass
     }
 
+    pub(in crate::smooth) fn matrices(&self) -> &Arc<Matrices> {
+        &self.matrices
+    }
+
     /// Takes another data term; analyses stay.
     pub(in crate::smooth) fn set_term(&mut self, operators: &Operators, term: &Arc<DataTerm>) -> Result<()> {
-        let matrices = &mut self.matrices;
+        let matrices = &self.matrices;
         if matrices.term != *term {
             memory::ensure(3 * ENTRY * matrices.laplacian.nnz() as u64)?;
-            matrices.mass = term.matrix(&operators.mesh, &matrices.unknowns)?;
-            matrices.term = Arc::clone(term);
+            self.matrices = Arc::new(Matrices {
+                unknowns: Arc::clone(&matrices.unknowns),
+                laplacian: Arc::clone(&matrices.laplacian),
+                weights: matrices.weights.clone(),
+                is_symmetric: matrices.is_symmetric,
+                mass: term.matrix(&operators.mesh, &matrices.unknowns)?,
+                term: Arc::clone(term),
+            });
         }
         Ok(())
     }
@@ -108,14 +118,23 @@ impl RegularizedSystem {
         settings: SolverSettings,
         stages: &mut Stages<'_, '_>,
     ) -> Result<Solved> {
+        let fields = channels.iter().map(|channel| self.matrices.restrict(&channel.normalized)).collect();
+        self.solve_fields(fields, epsilon, settings, stages)
+    }
+
+    /// Solves for fields at the unknowns.
+    pub(in crate::smooth) fn solve_fields(
+        &mut self,
+        fields: Vec<Vec<f64>>,
+        epsilon: f64,
+        settings: SolverSettings,
+        stages: &mut Stages<'_, '_>,
+    ) -> Result<Solved> {
         let Self { matrices, routes } = self;
-        ensure_solving(matrices.unknowns.len(), channels.len())?;
+        ensure_solving(matrices.unknowns.len(), fields.len())?;
         let unknowns = &matrices.unknowns;
-        let restrict = |channel: &Channel| RightHandSide {
-            field: unknowns.iter().map(|&v| channel.normalized[v as usize]).collect(),
-            offset: Vec::new(),
-        };
-        let right_hand_sides: Vec<RightHandSide> = channels.iter().map(restrict).collect();
+        let right_hand_sides: Vec<RightHandSide> =
+            fields.into_iter().map(|field| RightHandSide { field, offset: Vec::new() }).collect();
         let problem = matrices.problem(epsilon);
         let heaviest = (0..unknowns.len()).map(|i| matrices.mass.diagonal(i)).fold(0.0, f64::max);
         let scaled = problem.data().map_or(0.0, |data| data.scaled_epsilon());
@@ -131,11 +150,44 @@ impl RegularizedSystem {
 }
 
 impl Matrices {
+    /// A field's values at the unknowns.
+    pub(in crate::smooth) fn restrict(&self, field: &[f64]) -> Vec<f64> {
+        self.unknowns.iter().map(|&v| field[v as usize]).collect()
+    }
+
+    pub(in crate::smooth) fn unknowns(&self) -> &Arc<[u32]> {
+        &self.unknowns
+    }
+
+    pub(in crate::smooth) fn is_symmetric(&self) -> bool {
+        self.is_symmetric
+    }
+
+    pub(in crate::smooth) fn term(&self) -> &Arc<DataTerm> {
+        &self.term
+    }
+
+    /// L on the unknowns.
+    pub(in crate::smooth) fn laplacian(&self) -> &CscMatrix<f64> {
+        &self.laplacian
+    }
+
+    /// The diagonal of W; nothing for the identity.
+    pub(in crate::smooth) fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// B.
+    pub(in crate::smooth) fn mass(&self) -> &Mass {
+        &self.mass
+    }
+
     fn key(&self, epsilon: f64) -> FactorKey {
         FactorKey::Regularized { epsilon, term: Arc::clone(&self.term) }
     }
 
-    fn problem(&self, epsilon: f64) -> Problem<'_> {
+    /// The system for an ε.
+    pub(in crate::smooth) fn problem(&self, epsilon: f64) -> Problem<'_> {
         let DataTerm { norm, missing } = &*self.term;
         let is_inverse = match (&self.weights, norm) {
             (None, Norm::Identity) | (Some(_), Norm::Lumped(MassScale::Raw)) => missing.is_empty(),

@@ -1,0 +1,254 @@
+//! Building a family: one shift after the other, each where the estimated error is largest.
+
+use std::sync::Arc;
+
+use super::estimate::{Calibration, PER_DECADE, logarithmic};
+use super::options::FamilyOptions;
+use super::space::{Kind, Space};
+use super::{Family, Field};
+use crate::error::Result;
+use crate::smooth::active::ActiveVertices;
+use crate::smooth::channels::TOGETHER;
+use crate::smooth::data_term::Mass;
+use crate::smooth::input::Input;
+use crate::smooth::method::Method;
+use crate::smooth::methods::settings;
+use crate::smooth::report::About;
+use crate::smooth::routes::{Accuracy, SolverSettings};
+use crate::smooth::schedule::{Forecast, Schedule};
+use crate::smooth::system::{Matrices, RegularizedSystem};
+use crate::smooth::systems::Systems;
+use crate::support::memory;
+use crate::support::random::Random;
+use crate::support::watch::{Phase, Watch};
+
+/// Where rounding keeps a family from its tolerance, more shifts than these do not help.
+const MOST_SHIFTS: usize = 24;
+/// So many shifts are usual; progress is told as if there were so many.
+const USUAL_SHIFTS: usize = 11;
+/// A family that has not come to half of its least error after so many shifts gets no better.
+const PATIENCE: usize = 5;
+/// Vectors with random signs that the trace of the matrix that smooths is found by. They are solved for together with what the space
+/// needs, in two blocks of [`TOGETHER`].
+const PROBES: usize = 6;
+
+/// How far a family has grown.
+#[derive(Debug)]
+pub(super) struct Growth {
+    pub(super) shifts: Vec<f64>,
+    /// For every shift the trace of (S + εB)⁻¹εB.
+    pub(super) traces: Vec<f64>,
+    /// The number of values that the data term knows.
+    pub(super) known: usize,
+    probes: Vec<Vec<f64>>,
+    calibrations: Vec<Calibration>,
+    tolerance: f64,
+    /// The ε with the largest error, and that error.
+    pub(super) worst: (f64, f64),
+    /// The least such error, and how many shifts ago it was halved.
+    least: (f64, usize),
+    pub(super) is_complete: bool,
+}
+
+impl Growth {
+    fn new(first: f64, tolerance: f64, matrices: &Matrices) -> Self {
+        let counted = counted(matrices.mass());
+        let n = matrices.unknowns().len();
+        let is_known = |i: usize| counted.as_ref().is_none_or(|counted| counted[i] > 0.0);
+        let mut random = Random::new(1);
+        let mut sign = |i: usize| if is_known(i) { random.signed().signum() } else { 0.0 };
+        Self {
+            shifts: Vec::new(),
+            traces: Vec::new(),
+            known: (0..n).filter(|&i| is_known(i)).count(),
+            probes: (0..PROBES).map(|_| (0..n).map(&mut sign).collect()).collect(),
+            calibrations: Vec::new(),
+            tolerance,
+            worst: (first, 1.0),
+            least: (1.0, 0),
+            is_complete: false,
+        }
+    }
+
+    /// The largest relative error of all channels.
+    pub(super) fn error(&self, spaces: &[Space], epsilon: f64) -> f64 {
+        let each = spaces.iter().zip(&self.calibrations);
+        each.map(|(space, calibration)| calibration.error(space, epsilon, &self.shifts)).fold(0.0, f64::max)
+    }
+}
+
+/// Makes a family of what a method smooths.
+pub(super) fn start(
+    input: &Input<'_>,
+    systems: &mut Systems,
+    method: &Method<'_>,
+    options: &FamilyOptions<'_>,
+    watch: &Watch<'_>,
+) -> Result<Family> {
+    let operators = input.operators;
+    let n = operators.mesh.vertex_count() as u64;
+    let count = input.channels.count();
+    // Per channel: its values, thrice; the basis with its images, and what a shift adds. For all: probes and solutions.
+    let vectors = 2 * (3 * USUAL_SHIFTS + 2) + 8;
+    memory::ensure(8 * n * ((vectors * count + 4 * TOGETHER + PROBES) as u64))?;
+    let most = options.factorizations.unwrap_or(MOST_SHIFTS).min(MOST_SHIFTS);
+    let steps = vec![(Phase::Factorization, 1.0); most.min(USUAL_SHIFTS)];
+    let mut plan = watch.plan(&steps);
+    plan.begin(0)?;
+    let regularization = {
+        let schedule = Schedule::of_filter(1);
+        method.regularization(input, &mut schedule.stages(watch))?
+    };
+    let system = systems.regularized(operators, &regularization.unknowns, &regularization.term)?;
+    let matrices = Arc::clone(system.matrices());
+    let sigma = (options.range.0 * options.range.1).sqrt();
+    let channels: Vec<_> = input.channels.groups(&operators.mesh).flat_map(|(_, group)| group).collect();
+    let mut spaces = Vec::with_capacity(channels.len());
+    for channel in &channels {
+        let field = matrices.restrict(&channel.normalized);
+        let mut space = Space::new(&matrices, field, counted(matrices.mass()), sigma);
+        let kernel = kernel(&space, &matrices, &operators.active);
+        space.add(Kind::Kernel, kernel, &matrices, watch)?;
+        if !matrices.mass().has_gaps() {
+            space.add(Kind::Field, space.field().to_vec(), &matrices, watch)?;
+        }
+        spaces.push(space);
+    }
+    let field = Field {
+        operators: Arc::clone(operators),
+        about: About { epsilon: None, ..regularization.about },
+        values: input.channels.to_interleaved(),
+        channels,
+        gaps: input.gaps.as_ref().map(|gaps| (Arc::clone(&gaps.missing), gaps.known.cloned())),
+        left_out: None,
+    };
+    let growth = Growth::new(options.first(), options.tolerance, &matrices);
+    let mut family = Family { field, matrices, range: options.range, growth, spaces };
+    loop {
+        add_shift(&mut family, system, watch)?;
+        if family.growth.is_complete || family.growth.shifts.len() >= most {
+            break;
+        }
+        plan.begin(0)?;
+    }
+    plan.finish()?;
+    Ok(family)
+}
+
+/// Adds a shift to a family.
+pub(super) fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>) -> Result<()> {
+    if family.growth.is_complete {
+        return Ok(());
+    }
+    let matrices = Arc::clone(&family.matrices);
+    let n = matrices.unknowns().len() as u64;
+    memory::ensure(8 * n * ((8 * family.spaces.len() + 4 * TOGETHER) as u64))?;
+    let system = systems.regularized(&family.field.operators, matrices.unknowns(), matrices.term())?;
+    add_shift(family, system, watch)
+}
+
+/// Adds a shift where the error is largest, and estimates errors anew.
+fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<'_>) -> Result<()> {
+    let Family { field, matrices, range, growth, spaces } = family;
+    let epsilon = growth.worst.0;
+    let full = settings(field.operators.options, false);
+    let rough = SolverSettings { accuracy: Accuracy::Rough, ..full };
+    let (work, analysis, factorization) = system.forecast(epsilon, full);
+    let groups = spaces.len().div_ceil(TOGETHER);
+    let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
+    let mut stages = schedule.stages(watch);
+    // Whatever fails leaves the family as it was.
+    let mut added: Vec<[Vec<f64>; 3]> = Vec::with_capacity(spaces.len());
+    let mut traces: Vec<f64> = Vec::new();
+    for group in spaces.chunks(TOGETHER) {
+        let fields = group.iter().map(|space| space.field().to_vec()).collect();
+        let solved = system.solve_fields(fields, epsilon, full, &mut stages)?.solutions;
+        let solutions: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
+        // (S + εB)⁻¹εB of f − x and of that, beside as many probes as cost nothing more.
+        let mut rest: Vec<Vec<f64>> = solutions
+            .iter()
+            .zip(group)
+            .map(|(x, space)| space.field().iter().zip(x).map(|(f, x)| f - x).collect())
+            .collect();
+        let mut derivatives = Vec::new();
+        for _ in 0..2 {
+            let first = traces.len();
+            let probes = &growth.probes[first..PROBES.min(first + TOGETHER.saturating_sub(rest.len()).max(1))];
+            let right_hand_sides: Vec<Vec<f64>> = rest.iter().chain(probes).cloned().collect();
+            let solved = system.solve_fields(right_hand_sides, epsilon, rough, &mut stages)?.solutions;
+            let mut solved: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
+            traces.extend(probes.iter().zip(&solved[rest.len()..]).map(|(z, x)| super::small::dot(z, x)));
+            solved.truncate(rest.len());
+            derivatives.push(solved.clone());
+            rest = solved;
+        }
+        let second = derivatives.pop().unwrap_or_default();
+        let first = derivatives.pop().unwrap_or_default();
+        added.extend(solutions.into_iter().zip(first).zip(second).map(|((x, y), z)| [x, y, z]));
+        stages.next_group();
+    }
+    let before: Vec<usize> = spaces.iter().map(Space::dimension).collect();
+    if let Err(error) = extend(spaces, added, matrices, watch) {
+        spaces.iter_mut().zip(before).for_each(|(space, dimension)| space.truncate(dimension));
+        return Err(error);
+    }
+    growth.shifts.push(epsilon);
+    growth.traces.push(traces.iter().sum::<f64>() / traces.len().max(1) as f64);
+    growth.calibrations =
+        spaces.iter().map(|space| Calibration::new(space, matrices, &growth.shifts, *range)).collect();
+    let errors = logarithmic(*range, PER_DECADE).into_iter().map(|epsilon| (epsilon, growth.error(spaces, epsilon)));
+    growth.worst = errors.fold((range.0, 0.0), |worst, error| if error.1 > worst.1 { error } else { worst });
+    growth.least = match growth.least {
+        (least, _) if growth.worst.1 < 0.5 * least => (growth.worst.1, 0),
+        (least, ago) => (least, ago + 1),
+    };
+    growth.is_complete =
+        growth.worst.1 <= growth.tolerance || growth.least.1 >= PATIENCE || growth.shifts.len() >= MOST_SHIFTS;
+    if growth.is_complete {
+        growth.probes = Vec::new();
+        spaces.iter_mut().for_each(Space::finish);
+    }
+    Ok(())
+}
+
+/// Adds to every space what a shift gave for it.
+fn extend(spaces: &mut [Space], added: Vec<[Vec<f64>; 3]>, matrices: &Matrices, watch: &Watch<'_>) -> Result<()> {
+    for (space, vectors) in spaces.iter_mut().zip(added) {
+        for (kind, vector) in [Kind::Solution, Kind::First, Kind::Second].into_iter().zip(vectors) {
+            space.add(kind, vector, matrices, watch)?;
+        }
+    }
+    spaces.iter_mut().try_for_each(Space::project)
+}
+
+/// What counts of the unknowns where a field is compared with its data: all alike, or what the data term reaches, by its weights.
+fn counted(mass: &Mass) -> Option<Vec<f64>> {
+    if !mass.has_gaps() {
+        return None;
+    }
+    match mass {
+        Mass::Diagonal(weights) => Some(weights.clone()),
+        Mass::Identity | Mass::Matrix(_) => None,
+        Mass::Partial(matrix) => {
+            Some((0..matrix.ncols()).map(|i| f64::from(u8::from(mass.diagonal(i) > 0.0))).collect())
+        }
+    }
+}
+
+/// The limit of the solutions for ε → 0: on every component the mean of the field in the data term's norm.
+fn kernel(space: &Space, matrices: &Matrices, active: &ActiveVertices) -> Vec<f64> {
+    let unknowns = matrices.unknowns();
+    let ones = matrices.mass().times(&vec![1.0; unknowns.len()]);
+    let mut sums = vec![(0.0, 0.0); active.first_vertices().len()];
+    for ((&v, load), one) in unknowns.iter().zip(space.field_mass()).zip(&ones) {
+        if let Some(component) = active.component(v) {
+            sums[component].0 += load;
+            sums[component].1 += one;
+        }
+    }
+    let mean = |&v: &u32| match active.component(v).map(|component| sums[component]) {
+        Some((load, mass)) if mass > 0.0 => load / mass,
+        _ => 0.0,
+    };
+    unknowns.iter().map(mean).collect()
+}

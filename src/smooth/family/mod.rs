@@ -1,0 +1,246 @@
+//! The solutions for all ε at once: a rational Krylov space.
+//!
+//! x(ε) = (S + εB)⁻¹εBf, with S = LᵀWL, lies for all ε in a range, to high accuracy, in the space that a dozen of these solutions
+//! and their first two derivatives by ε span. Each shift, as the ε of these solutions are called, takes one factor and a few solves
+//! with it. Projected onto the space, the system of any ε is a small one, which one diagonalisation solves for all of them
+//! \[Guettel13\].
+
+mod build;
+mod estimate;
+mod options;
+mod pencil;
+mod small;
+mod space;
+
+use std::sync::Arc;
+
+pub use options::{FamilyMethod, FamilyOptions};
+
+use super::channels::{Channel, Channels};
+use super::input::Input;
+use super::method::{self, Masked};
+use super::missing::{Gaps, Part};
+use super::names::{Route, UsedPrecision};
+use super::operators::Operators;
+use super::report::{About, Measures, Smoothed, SolverReport};
+use super::routes::RightHandSide;
+use super::run::{Found, Procedure, Solution, run, whole};
+use super::schedule::{Schedule, Stages};
+use super::system::Matrices;
+use super::systems::Systems;
+use crate::error::{OptionError, Result};
+use crate::support::memory;
+use crate::support::watch::{Phase, Watch};
+use build::Growth;
+use space::{Space, Which};
+
+/// The smoothed fields for all ε of a range: see [`Smoother::family`](super::Smoother::family).
+#[derive(Debug)]
+pub struct Family {
+    field: Field,
+    matrices: Arc<Matrices>,
+    range: (f64, f64),
+    growth: Growth,
+    /// One for each channel.
+    spaces: Vec<Space>,
+}
+
+/// What is smoothed, and what is known of it.
+#[derive(Debug)]
+struct Field {
+    operators: Arc<Operators>,
+    about: About,
+    /// Interleaved.
+    values: Vec<f64>,
+    channels: Vec<Channel>,
+    /// The vertices whose values are to be filled in, and the part of the mesh that has values.
+    gaps: Option<(Arc<[u32]>, Option<Arc<Part>>)>,
+    /// Where missing values were left out: the part that is smoothed, and the values on the whole mesh.
+    left_out: Option<(Arc<Part>, Vec<f64>)>,
+}
+
+impl Family {
+    /// Makes a family, and lets it grow.
+    pub(super) fn new(
+        operators: &Arc<Operators>,
+        systems: &mut Systems,
+        masked: &mut Masked,
+        values: &[f64],
+        options: &FamilyOptions<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
+        options.check()?;
+        let method = options.method.method();
+        let make = &mut |input: &Input<'_>, systems: &mut Systems, method: &method::Method<'_>| {
+            build::start(input, systems, method, options, watch)
+        };
+        let (mut family, part) = method::on_input(operators, systems, masked, values, &method, make)?;
+        family.field.left_out = part.map(|part| (part, values.to_vec()));
+        Ok(family)
+    }
+
+    /// The range of ε.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        self.range
+    }
+
+    /// The dimension of the space, for all channels together.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.spaces.iter().map(Space::dimension).sum()
+    }
+
+    /// The ε that a factor was computed for, in the order in which they were.
+    #[must_use]
+    pub fn shifts(&self) -> &[f64] {
+        &self.growth.shifts
+    }
+
+    /// The largest estimated relative error ‖x − x_ε‖₂/‖x_ε‖₂ over the range, of normalised fields.
+    #[must_use]
+    pub fn error_estimate(&self) -> f64 {
+        self.growth.worst.1
+    }
+
+    /// Whether it has reached its tolerance, or more shifts would make it no better.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.growth.is_complete
+    }
+
+    /// The estimated relative error for one ε.
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range.
+    pub fn error_at(&self, epsilon: f64) -> Result<f64, OptionError> {
+        self.check(epsilon)?;
+        Ok(self.growth.error(&self.spaces, epsilon))
+    }
+
+    /// The smoothed values for an ε, interleaved as the input: one product with the basis of the space.
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range; `OutOfMemory`.
+    pub fn values(&self, epsilon: f64) -> Result<Vec<f64>> {
+        self.check(epsilon)?;
+        let field = &self.field;
+        // The result, that of the part, and one channel's normalised values twice and in the units of the input.
+        memory::ensure(16 * field.values.len() as u64 + 32 * field.operators.mesh.vertex_count() as u64)?;
+        let mut values = field.values.clone();
+        for (c, (channel, space)) in field.channels.iter().zip(&self.spaces).enumerate() {
+            let x = space.solution(epsilon, Which::Full);
+            let (_, restored) = whole(&field.operators, &field.about, channel, self.matrices.unknowns(), &x);
+            for (place, value) in values.iter_mut().skip(c).step_by(field.channels.len()).zip(restored) {
+                *place = value;
+            }
+        }
+        Ok(field.to_whole(values))
+    }
+
+    /// The smoothed values for an ε with the reports that smoothing by the method gives; the route is [`Route::Family`].
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range; `Cancelled`; `OutOfMemory`.
+    pub fn at(&self, epsilon: f64, watch: &Watch<'_>) -> Result<Smoothed> {
+        self.check(epsilon)?;
+        let field = &self.field;
+        let gaps = field.gaps();
+        let channels = Channels::new(&field.operators.mesh, &field.values, field.channels.len(), gaps.as_ref())?;
+        let input = Input { operators: &field.operators, channels, gaps };
+        let about = About { epsilon: Some(epsilon), ..field.about.clone() };
+        let schedule = Schedule::of_filter(input.channels.group_count());
+        let mut member = Member { family: self, epsilon, next: 0 };
+        let smoothed = run(&input, &about, &mut member, schedule.stages(watch))?;
+        Ok(Smoothed { values: field.to_whole(smoothed.values), reports: smoothed.reports })
+    }
+
+    /// Adds a shift; whether the family is complete.
+    pub(super) fn grow(
+        &mut self,
+        operators: &Arc<Operators>,
+        systems: &mut Systems,
+        masked: &mut Masked,
+        watch: &Watch<'_>,
+    ) -> Result<bool> {
+        let systems = match &self.field.left_out {
+            None if Arc::ptr_eq(operators, &self.field.operators) => systems,
+            Some((part, _)) => match masked.of_part(part) {
+                Some(systems) => systems,
+                None => &mut Systems::default(),
+            },
+            None => return Err(OptionError::invalid("family", "a family of this smoother").into()),
+        };
+        build::grow(self, systems, watch)?;
+        Ok(self.growth.is_complete)
+    }
+
+    fn check(&self, epsilon: f64) -> Result<(), OptionError> {
+        if (self.range.0..=self.range.1).contains(&epsilon) {
+            return Ok(());
+        }
+        let expected = format!("a number from {:e} to {:e}, the range of the family", self.range.0, self.range.1);
+        Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected })
+    }
+}
+
+impl Field {
+    fn gaps(&self) -> Option<Gaps<'_>> {
+        let (missing, known) = self.gaps.as_ref()?;
+        Some(Gaps { missing: Arc::clone(missing), known: known.as_ref() })
+    }
+
+    /// Values of the part that was smoothed among those of the whole mesh.
+    fn to_whole(&self, values: Vec<f64>) -> Vec<f64> {
+        match &self.left_out {
+            None => values,
+            Some((part, before)) => {
+                let mut whole = before.clone();
+                part.scatter(&values, self.channels.len(), &mut whole);
+                whole
+            }
+        }
+    }
+}
+
+/// The fields of a family for one ε, to be reported.
+struct Member<'a> {
+    family: &'a Family,
+    epsilon: f64,
+    /// The channel that comes next.
+    next: usize,
+}
+
+impl Procedure for Member<'_> {
+    fn solve(&mut self, group: &[Channel], _: bool, stages: &mut Stages<'_, '_>) -> Result<Found> {
+        stages.begin(Phase::Solve, 0)?;
+        let Family { matrices, spaces, .. } = self.family;
+        let problem = matrices.problem(self.epsilon);
+        let spaces = &spaces[self.next..self.next + group.len()];
+        self.next += group.len();
+        memory::ensure(64 * (matrices.unknowns().len() * group.len()) as u64)?;
+        let mut solutions = Vec::with_capacity(group.len());
+        for space in spaces {
+            stages.watch.tick(2 * (space.dimension() * matrices.unknowns().len()) as u64)?;
+            let x = space.solution(self.epsilon, Which::Full);
+            let side = RightHandSide { field: space.field().to_vec(), offset: Vec::new() };
+            let solver = SolverReport {
+                route: Route::Family,
+                precision: UsedPrecision::Double,
+                unknowns: space.dimension(),
+                factor_nonzeros: 0,
+                relative_residual: problem.relative_residual(&side, &x),
+                refinement_steps: 0,
+                iterations: 0,
+            };
+            solutions.push(Solution { vertices: Arc::clone(matrices.unknowns()), x, solver });
+        }
+        Ok(Found { solutions, perturbation_factor: None })
+    }
+
+    fn measures(&mut self, x: &[f64], f: &[f64]) -> Measures {
+        let matrices = &self.family.matrices;
+        let moved: Vec<f64> = matrices.unknowns().iter().map(|&v| x[v as usize] - f[v as usize]).collect();
+        Measures { metric_norm: Some(matrices.mass().norm(&moved)), maximum_principle: None }
+    }
+}

@@ -1,0 +1,321 @@
+//! The space in which the solutions for all ε lie, to high accuracy, for one channel.
+
+use super::pencil::Pencil;
+use super::small::{DEPENDENT, Symmetric, add_combination, dot, orthonormal};
+use crate::error::{Cancelled, Result, SmoothError};
+use crate::smooth::system::Matrices;
+use crate::solve::{norm, product, transposed_product};
+use crate::support::watch::Watch;
+
+/// What a vector of the space was made as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// What stays of the field for ε → 0: its mean on every component.
+    Kernel,
+    /// The field itself, where the data term reaches all of it: what stays for ε → ∞.
+    Field,
+    /// A solution.
+    Solution,
+    /// Its derivative by ε, but for a factor.
+    First,
+    /// Its second derivative, but for a factor.
+    Second,
+}
+
+/// A growing space with the systems projected onto it.
+///
+/// The basis is orthonormal in the norm of S + σB with S = LᵀWL, in which both matrices have a condition number of no more than the
+/// largest ε over the least.
+#[derive(Debug)]
+pub(super) struct Space {
+    sigma: f64,
+    basis: Vec<Vec<f64>>,
+    /// √W·L times the basis; emptied when the space grows no more.
+    images: Vec<Vec<f64>>,
+    /// What each vector that was added is in the basis.
+    added: Vec<(Kind, Vec<f64>)>,
+    /// f at the unknowns, and Bf.
+    field: Vec<f64>,
+    field_mass: Vec<f64>,
+    /// 1 at unknowns whose values the data term knows, or their weights; nothing where all count alike.
+    counted: Option<Vec<f64>>,
+    smooth: Symmetric,
+    data: Symmetric,
+    plain: Symmetric,
+    sobolev: Symmetric,
+    /// vᵀLᵀLv where W is not the identity.
+    laplacian: Option<Symmetric>,
+    /// vᵀKv with K the diagonal of what is counted.
+    counted_plain: Option<Symmetric>,
+    loads: Vec<f64>,
+    /// vᵀKf.
+    counted_loads: Vec<f64>,
+    /// fᵀBf and fᵀKf.
+    field_data: f64,
+    field_counted: f64,
+    full: Pencil,
+    /// The same without the second derivatives: what errors are estimated with.
+    partial: Pencil,
+}
+
+impl Space {
+    pub(super) fn new(matrices: &Matrices, field: Vec<f64>, counted: Option<Vec<f64>>, sigma: f64) -> Self {
+        let field_mass = matrices.mass().times(&field);
+        let field_data = dot(&field, &field_mass);
+        let field_counted = counted
+            .as_ref()
+            .map_or_else(|| dot(&field, &field), |counted| field.iter().zip(counted).map(|(f, k)| k * f * f).sum());
+        let with = |wanted: bool| wanted.then(Symmetric::default);
+        Self {
+            sigma,
+            laplacian: with(matrices.weights().is_some()),
+            counted_plain: with(counted.is_some()),
+            basis: Vec::new(),
+            images: Vec::new(),
+            added: Vec::new(),
+            field,
+            field_mass,
+            counted,
+            smooth: Symmetric::default(),
+            data: Symmetric::default(),
+            plain: Symmetric::default(),
+            sobolev: Symmetric::default(),
+            loads: Vec::new(),
+            counted_loads: Vec::new(),
+            field_data,
+            field_counted,
+            full: Pencil::default(),
+            partial: Pencil::default(),
+        }
+    }
+
+    /// f at the unknowns.
+    pub(super) fn field(&self) -> &[f64] {
+        &self.field
+    }
+
+    pub(super) fn field_mass(&self) -> &[f64] {
+        &self.field_mass
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.basis.len()
+    }
+
+    /// Adds a vector to the space, unless it lies there already.
+    pub(super) fn add(
+        &mut self,
+        kind: Kind,
+        mut vector: Vec<f64>,
+        matrices: &Matrices,
+        watch: &Watch<'_>,
+    ) -> Result<(), Cancelled> {
+        let size = norm(&vector);
+        if size == 0.0 || !size.is_finite() {
+            return Ok(());
+        }
+        vector.iter_mut().for_each(|x| *x /= size);
+        let mut coordinates = vec![0.0; self.basis.len()];
+        let mut start = None;
+        // Twice is enough for orthogonality to rounding.
+        for _ in 0..2 {
+            let (image, mass) = (image(matrices, &vector), matrices.mass().times(&vector));
+            start.get_or_insert(self.size(&vector, &image, &mass));
+            let shares = self.shares(&image, &mass, watch)?;
+            let opposite: Vec<f64> = shares.iter().map(|share| -share).collect();
+            add_combination(&mut vector, &self.basis, &opposite);
+            coordinates.iter_mut().zip(&shares).for_each(|(sum, share)| *sum += share);
+        }
+        let (mut image, mut mass) = (image(matrices, &vector), matrices.mass().times(&vector));
+        let rest = self.size(&vector, &image, &mass);
+        if !(rest > DEPENDENT * start.unwrap_or(0.0)) {
+            return Ok(());
+        }
+        for values in [&mut vector, &mut image, &mut mass] {
+            values.iter_mut().for_each(|x| *x /= rest);
+        }
+        coordinates.push(rest);
+        self.added.push((kind, coordinates));
+        self.basis.push(vector);
+        self.images.push(image);
+        self.measure(matrices, &mass, watch)
+    }
+
+    /// ‖v‖ in the norm of S + σB.
+    fn size(&self, vector: &[f64], image: &[f64], mass: &[f64]) -> f64 {
+        (dot(image, image) + self.sigma * dot(vector, mass)).max(0.0).sqrt()
+    }
+
+    /// What a vector has of each basis vector.
+    fn shares(&self, image: &[f64], mass: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
+        let mut shares = Vec::with_capacity(self.basis.len());
+        for (other, other_image) in self.basis.iter().zip(&self.images) {
+            watch.tick(4 * mass.len() as u64)?;
+            shares.push(dot(other_image, image) + self.sigma * dot(other, mass));
+        }
+        Ok(shares)
+    }
+
+    /// The last basis vector's rows of all the small matrices.
+    fn measure(&mut self, matrices: &Matrices, mass: &[f64], watch: &Watch<'_>) -> Result<(), Cancelled> {
+        let (Some(vector), Some(image)) = (self.basis.last(), self.images.last()) else { return Ok(()) };
+        let plain_image: Option<Vec<f64>> =
+            matrices.weights().map(|weights| image.iter().zip(weights).map(|(y, w)| y / w.sqrt()).collect());
+        let laplacian_image = plain_image.as_ref().unwrap_or(image);
+        let row = |others: &[Vec<f64>], values: &[f64]| -> Result<Vec<f64>, Cancelled> {
+            watch.tick(2 * (others.len() * values.len()) as u64)?;
+            Ok(others.iter().map(|other| dot(other, values)).collect())
+        };
+        self.smooth.push(row(&self.images, image)?);
+        self.data.push(row(&self.basis, mass)?);
+        self.plain.push(row(&self.basis, vector)?);
+        self.sobolev.push(row(&self.basis, laplacian_image)?);
+        if let (Some(laplacian), Some(y)) = (&mut self.laplacian, &plain_image)
+            && let Some(weights) = matrices.weights()
+        {
+            // √W L v over √W is L v; its products with other √W L u need the same division.
+            let scaled: Vec<f64> = y.iter().zip(weights).map(|(y, w)| y / w.sqrt()).collect();
+            laplacian.push(row(&self.images, &scaled)?);
+        }
+        if let (Some(counted_plain), Some(counted)) = (&mut self.counted_plain, &self.counted) {
+            let scaled: Vec<f64> = vector.iter().zip(counted).map(|(x, k)| x * k).collect();
+            counted_plain.push(row(&self.basis, &scaled)?);
+            self.counted_loads.push(dot(&scaled, &self.field));
+        } else {
+            self.counted_loads.push(dot(vector, &self.field));
+        }
+        self.loads.push(dot(vector, &self.field_mass));
+        Ok(())
+    }
+
+    /// Projects the systems, once vectors have been added.
+    ///
+    /// # Errors
+    /// `NotConverged` where the projected matrices are not positive definite, which rounding alone can make them.
+    pub(super) fn project(&mut self) -> Result<()> {
+        let size = self.dimension();
+        let unit = |i: usize| (0..size).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
+        let all: Vec<Vec<f64>> = (0..size).map(unit).collect();
+        let kept = self.added.iter().filter(|(kind, _)| *kind != Kind::Second);
+        let padded = kept.map(|(_, coordinates)| {
+            let mut column = coordinates.clone();
+            column.resize(size, 0.0);
+            column
+        });
+        let some = orthonormal(&padded.collect::<Vec<_>>());
+        let pencil = |columns: &[Vec<f64>]| {
+            Pencil::new(columns, &self.smooth, &self.data, &self.loads, self.sigma)
+                .ok_or(SmoothError::NotConverged { iterations: 0, residual: f64::INFINITY })
+        };
+        (self.full, self.partial) = (pencil(&all)?, pencil(&some)?);
+        Ok(())
+    }
+
+    /// How many vectors of a kind there are.
+    fn count(&self, kinds: &[Kind]) -> usize {
+        self.added.iter().filter(|(kind, _)| kinds.contains(kind)).count()
+    }
+
+    /// Whether what stays for ε → 0 is in the space on its own.
+    fn has_kernel(&self) -> bool {
+        self.count(&[Kind::Kernel]) > 0
+    }
+
+    /// ln of what the residual for ε is in proportion to: the residuals of all ε are multiples of one vector.
+    pub(super) fn log_residual(&self, epsilon: f64, shifts: &[f64], of: Which) -> f64 {
+        let (pencil, kinds): (_, &[Kind]) = match of {
+            Which::Full => (&self.full, &[Kind::Solution, Kind::First, Kind::Second]),
+            Which::Partial => (&self.partial, &[Kind::Solution, Kind::First]),
+        };
+        // The same number for every shift, unless some vectors depended on others.
+        let each = self.count(kinds) as f64 / shifts.len().max(1) as f64;
+        let distances: f64 = shifts.iter().map(|shift| libm::log((epsilon - shift).abs().max(f64::MIN_POSITIVE))).sum();
+        libm::log(epsilon) + each * distances - pencil.log_divisors(epsilon, self.has_kernel())
+    }
+
+    fn coefficients(&self, epsilon: f64, of: Which) -> Vec<f64> {
+        match of {
+            Which::Full => self.full.coefficients(epsilon),
+            Which::Partial => self.partial.coefficients(epsilon),
+        }
+    }
+
+    /// The solution for ε at the unknowns.
+    pub(super) fn solution(&self, epsilon: f64, of: Which) -> Vec<f64> {
+        let mut x = vec![0.0; self.field.len()];
+        add_combination(&mut x, &self.basis, &self.coefficients(epsilon, of));
+        x
+    }
+
+    /// ‖x − y‖/‖x‖ for the solution x and that without second derivatives y.
+    pub(super) fn difference(&self, epsilon: f64) -> f64 {
+        let x = self.coefficients(epsilon, Which::Full);
+        let y = self.coefficients(epsilon, Which::Partial);
+        let difference: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x - y).collect();
+        let size = self.plain.quadratic(&x).max(0.0).sqrt();
+        if size > 0.0 { self.plain.quadratic(&difference).max(0.0).sqrt() / size } else { 0.0 }
+    }
+
+    /// ‖x − f‖_B.
+    pub(super) fn metric_norm(&self, epsilon: f64) -> f64 {
+        // What no vector of the space reaches of f; nothing but rounding where f is among them.
+        let beyond = if self.count(&[Kind::Field]) > 0 { 0.0 } else { self.field_data - self.full.projected() };
+        (self.full.misfit(epsilon) + beyond.max(0.0)).sqrt()
+    }
+
+    /// xᵀSx.
+    pub(super) fn smoothness_energy(&self, epsilon: f64) -> f64 {
+        self.full.smoothness_energy(epsilon)
+    }
+
+    /// ‖Lx‖₂² and xᵀLx.
+    pub(super) fn energies(&self, epsilon: f64) -> (f64, f64) {
+        let x = self.coefficients(epsilon, Which::Full);
+        let squared = match &self.laplacian {
+            Some(laplacian) => laplacian.quadratic(&x).max(0.0),
+            None => self.full.smoothness_energy(epsilon),
+        };
+        (squared, self.sobolev.quadratic(&x))
+    }
+
+    /// Σ k(x − f)² over what is counted.
+    pub(super) fn counted_misfit(&self, epsilon: f64) -> f64 {
+        let x = self.coefficients(epsilon, Which::Full);
+        let square = self.counted_plain.as_ref().unwrap_or(&self.plain).quadratic(&x);
+        (self.field_counted - 2.0 * dot(&x, &self.counted_loads) + square).max(0.0)
+    }
+
+    /// Lets go of the vectors after the first ones. Projections stay as they are.
+    pub(super) fn truncate(&mut self, dimension: usize) {
+        self.basis.truncate(dimension);
+        self.images.truncate(dimension);
+        self.added.truncate(dimension);
+        self.loads.truncate(dimension);
+        self.counted_loads.truncate(dimension);
+        let others = [&mut self.laplacian, &mut self.counted_plain].into_iter().flatten();
+        let matrices = [&mut self.smooth, &mut self.data, &mut self.plain, &mut self.sobolev].into_iter().chain(others);
+        matrices.for_each(|matrix| matrix.truncate(dimension));
+    }
+
+    /// Gives back what only growing needs.
+    pub(super) fn finish(&mut self) {
+        self.images = Vec::new();
+    }
+}
+
+/// All of a space, or its part that errors are estimated with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Which {
+    Full,
+    Partial,
+}
+
+/// √W·Lx.
+fn image(matrices: &Matrices, x: &[f64]) -> Vec<f64> {
+    let laplacian = matrices.laplacian();
+    let mut image = if matrices.is_symmetric() { transposed_product(laplacian, x) } else { product(laplacian, x) };
+    if let Some(weights) = matrices.weights() {
+        image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w.sqrt());
+    }
+    image
+}
