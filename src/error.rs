@@ -478,6 +478,15 @@ stage_error! {
             /// Relative residual or correction reached.
             residual: f64,
         } => "not converged after {iterations} iterations: {residual:e} reached; a larger epsilon helps, where triangles are very thin the weights `intrinsicDelaunay`, and where vertices are closer than a millionth of the mesh's diagonal to weld them with a tolerance",
+        /// No ε of a range leaves so few critical points as were asked for.
+        TooManyCriticalPoints {
+            /// The most that were wanted, saddles with multiplicity.
+            wanted: usize,
+            /// The fewest that some ε leaves.
+            least: usize,
+            /// That ε.
+            epsilon: f64,
+        } => "no epsilon of the range leaves {wanted} critical points or fewer: the fewest are {least}, at epsilon = {epsilon:e}; a range that reaches lower may help",
         /// The steps of a filter make values grow beyond all bounds.
         Diverged {
             /// Steps taken.

@@ -23,7 +23,10 @@ mod systems;
 mod unconstrained;
 
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
-pub use family::{Family, FamilyMethod, FamilyOptions};
+pub use family::{
+    ChosenEpsilon, Confidence, EpsilonRule, ExtremumLife, Family, FamilyMethod, FamilyOptions, NoiseLevel, Sweep,
+    SweepOptions,
+};
 pub use maximum_principle::MaximumPrinciple;
 pub use method::Method;
 pub use methods::{

@@ -120,7 +120,7 @@ pub fn smoothness(laplacian: &CscMatrix<f64>, values: &[f64]) -> Result<Smoothne
     }
 }
 
-fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
+pub(super) fn energies(laplacian: &CscMatrix<f64>, values: &[f64]) -> SmoothnessEnergies {
     let image = product(laplacian, values);
     let sobolev = image.iter().zip(values).map(|(a, b)| a * b).sum();
     SmoothnessEnergies { sobolev, laplacian_norm: norm(&image) }

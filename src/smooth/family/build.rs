@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::estimate::{Calibration, PER_DECADE, logarithmic};
 use super::options::FamilyOptions;
+use super::small::dot;
 use super::space::{Kind, Space};
 use super::{Family, Field};
 use crate::error::Result;
@@ -41,6 +42,8 @@ pub(super) struct Growth {
     /// The number of values that the data term knows.
     pub(super) known: usize,
     probes: Vec<Vec<f64>>,
+    /// What the components' means have of the traces by the probes, on average, and their number, which is what they have in truth.
+    pub(super) kernel: (f64, f64),
     calibrations: Vec<Calibration>,
     tolerance: f64,
     /// The ε with the largest error, and that error.
@@ -51,17 +54,20 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    fn new(first: f64, tolerance: f64, matrices: &Matrices) -> Self {
+    fn new(first: f64, tolerance: f64, matrices: &Matrices, active: &ActiveVertices) -> Self {
         let counted = counted(matrices.mass());
         let n = matrices.unknowns().len();
         let is_known = |i: usize| counted.as_ref().is_none_or(|counted| counted[i] > 0.0);
         let mut random = Random::new(1);
         let mut sign = |i: usize| if is_known(i) { random.signed().signum() } else { 0.0 };
+        let probes: Vec<Vec<f64>> = (0..PROBES).map(|_| (0..n).map(&mut sign).collect()).collect();
+        let kernel = kernel_of_traces(&probes, matrices, active);
         Self {
             shifts: Vec::new(),
             traces: Vec::new(),
             known: (0..n).filter(|&i| is_known(i)).count(),
-            probes: (0..PROBES).map(|_| (0..n).map(&mut sign).collect()).collect(),
+            probes,
+            kernel,
             calibrations: Vec::new(),
             tolerance,
             worst: (first, 1.0),
@@ -107,7 +113,7 @@ pub(super) fn start(
     for channel in &channels {
         let field = matrices.restrict(&channel.normalized);
         let mut space = Space::new(&matrices, field, counted(matrices.mass()), sigma);
-        let kernel = kernel(&space, &matrices, &operators.active);
+        let kernel = kernel(space.field_mass(), &matrices, &operators.active);
         space.add(Kind::Kernel, kernel, &matrices, watch)?;
         if !matrices.mass().has_gaps() {
             space.add(Kind::Field, space.field().to_vec(), &matrices, watch)?;
@@ -122,7 +128,7 @@ pub(super) fn start(
         gaps: input.gaps.as_ref().map(|gaps| (Arc::clone(&gaps.missing), gaps.known.cloned())),
         left_out: None,
     };
-    let growth = Growth::new(options.first(), options.tolerance, &matrices);
+    let growth = Growth::new(options.first(), options.tolerance, &matrices, &operators.active);
     let mut family = Family { field, matrices, range: options.range, growth, spaces };
     loop {
         add_shift(&mut family, system, watch)?;
@@ -177,7 +183,7 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
             let right_hand_sides: Vec<Vec<f64>> = rest.iter().chain(probes).cloned().collect();
             let solved = system.solve_fields(right_hand_sides, epsilon, rough, &mut stages)?.solutions;
             let mut solved: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
-            traces.extend(probes.iter().zip(&solved[rest.len()..]).map(|(z, x)| super::small::dot(z, x)));
+            traces.extend(probes.iter().zip(&solved[rest.len()..]).map(|(z, x)| dot(z, x)));
             solved.truncate(rest.len());
             derivatives.push(solved.clone());
             rest = solved;
@@ -236,11 +242,11 @@ fn counted(mass: &Mass) -> Option<Vec<f64>> {
 }
 
 /// The limit of the solutions for ε → 0: on every component the mean of the field in the data term's norm.
-fn kernel(space: &Space, matrices: &Matrices, active: &ActiveVertices) -> Vec<f64> {
+fn kernel(field_mass: &[f64], matrices: &Matrices, active: &ActiveVertices) -> Vec<f64> {
     let unknowns = matrices.unknowns();
     let ones = matrices.mass().times(&vec![1.0; unknowns.len()]);
     let mut sums = vec![(0.0, 0.0); active.first_vertices().len()];
-    for ((&v, load), one) in unknowns.iter().zip(space.field_mass()).zip(&ones) {
+    for ((&v, load), one) in unknowns.iter().zip(field_mass).zip(&ones) {
         if let Some(component) = active.component(v) {
             sums[component].0 += load;
             sums[component].1 += one;
@@ -251,4 +257,14 @@ fn kernel(space: &Space, matrices: &Matrices, active: &ActiveVertices) -> Vec<f6
         _ => 0.0,
     };
     unknowns.iter().map(mean).collect()
+}
+
+/// What the means of the components have of the traces by these probes, on average, and what they have in truth.
+fn kernel_of_traces(probes: &[Vec<f64>], matrices: &Matrices, active: &ActiveVertices) -> (f64, f64) {
+    let of_probe = |z: &Vec<f64>| dot(z, &kernel(&matrices.mass().times(z), matrices, active));
+    let by_probes = probes.iter().map(of_probe).sum::<f64>() / probes.len().max(1) as f64;
+    let mut components: Vec<usize> = matrices.unknowns().iter().filter_map(|&v| active.component(v)).collect();
+    components.sort_unstable();
+    components.dedup();
+    (by_probes, components.len() as f64)
 }

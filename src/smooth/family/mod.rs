@@ -6,14 +6,23 @@
 //! \[Guettel13\].
 
 mod build;
+mod choose;
+mod curves;
 mod estimate;
+mod lives;
+mod noise;
 mod options;
 mod pencil;
 mod small;
 mod space;
+mod traces;
 
 use std::sync::Arc;
 
+pub use choose::{ChosenEpsilon, EpsilonRule};
+pub use curves::{Sweep, SweepOptions};
+pub use lives::ExtremumLife;
+pub use noise::{Confidence, NoiseLevel};
 pub use options::{FamilyMethod, FamilyOptions};
 
 use super::channels::{Channel, Channels};
@@ -29,6 +38,7 @@ use super::schedule::{Schedule, Stages};
 use super::system::Matrices;
 use super::systems::Systems;
 use crate::error::{OptionError, Result};
+use crate::field::Missing;
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 use build::Growth;
@@ -128,9 +138,8 @@ impl Family {
         // The result, that of the part, and one channel's normalised values twice and in the units of the input.
         memory::ensure(16 * field.values.len() as u64 + 32 * field.operators.mesh.vertex_count() as u64)?;
         let mut values = field.values.clone();
-        for (c, (channel, space)) in field.channels.iter().zip(&self.spaces).enumerate() {
-            let x = space.solution(epsilon, Which::Full);
-            let (_, restored) = whole(&field.operators, &field.about, channel, self.matrices.unknowns(), &x);
+        for c in 0..field.channels.len() {
+            let restored = self.channel_values(epsilon, c);
             for (place, value) in values.iter_mut().skip(c).step_by(field.channels.len()).zip(restored) {
                 *place = value;
             }
@@ -175,6 +184,17 @@ impl Family {
         Ok(self.growth.is_complete)
     }
 
+    /// The smoothed values of one channel.
+    fn channel_values(&self, epsilon: f64, channel: usize) -> Vec<f64> {
+        self.whole(channel, &self.spaces[channel].solution(epsilon, Which::Full)).1
+    }
+
+    /// The values of a channel from those of its unknowns: normalised, and in the units of the input.
+    fn whole(&self, channel: usize, solution: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let Field { operators, about, channels, .. } = &self.field;
+        whole(operators, about, &channels[channel], self.matrices.unknowns(), solution)
+    }
+
     fn check(&self, epsilon: f64) -> Result<(), OptionError> {
         if (self.range.0..=self.range.1).contains(&epsilon) {
             return Ok(());
@@ -185,6 +205,16 @@ impl Family {
 }
 
 impl Field {
+    /// Whether a value is to be filled in.
+    fn is_missing(&self, vertex: usize) -> bool {
+        self.gaps.as_ref().is_some_and(|(missing, _)| missing.binary_search(&(vertex as u32)).is_ok())
+    }
+
+    /// What NaN means in smoothed values: components without any value may have kept it.
+    fn missing_after(&self) -> Missing {
+        if self.gaps.is_some() { Missing::Omit } else { Missing::Error }
+    }
+
     fn gaps(&self) -> Option<Gaps<'_>> {
         let (missing, known) = self.gaps.as_ref()?;
         Some(Gaps { missing: Arc::clone(missing), known: known.as_ref() })

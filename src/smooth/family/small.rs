@@ -1,5 +1,7 @@
 //! Small symmetric matrices, as large as the space of a family.
 
+use core::ops::Range;
+
 /// A symmetric matrix that grows by a row at a time; its lower triangle.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Symmetric {
@@ -183,5 +185,45 @@ pub(super) fn add_combination(x: &mut [f64], vectors: &[Vec<f64>], coefficients:
     }
     for (vector, c) in blocks.remainder().iter().zip(shares.remainder()) {
         x.iter_mut().zip(vector).for_each(|(x, v)| *x += c * v);
+    }
+}
+
+/// Vectors cut into pieces of a few elements, which stay in the processor's cache while much is made from them.
+pub(super) struct Pieces<'a> {
+    vectors: &'a [Vec<f64>],
+    length: usize,
+    next: usize,
+}
+
+/// The same few elements of every vector.
+pub(super) struct Piece<'a> {
+    vectors: &'a [Vec<f64>],
+    range: Range<usize>,
+    sum: Vec<f64>,
+}
+
+impl<'a> Pieces<'a> {
+    pub(super) fn new(vectors: &'a [Vec<f64>], length: usize) -> Self {
+        Self { vectors, length, next: 0 }
+    }
+
+    /// The next elements: which they are, and what is made from them.
+    pub(super) fn next(&mut self) -> Option<(Range<usize>, Piece<'a>)> {
+        let count = self.vectors.first().map_or(0, Vec::len);
+        let range = self.next..count.min(self.next + self.length);
+        self.next = range.end;
+        let piece = Piece { vectors: self.vectors, range: range.clone(), sum: vec![0.0; range.len()] };
+        (!range.is_empty()).then_some((range, piece))
+    }
+}
+
+impl Piece<'_> {
+    /// The elements of Σ c v.
+    pub(super) fn combination(&mut self, coefficients: &[f64]) -> &[f64] {
+        self.sum.fill(0.0);
+        for (vector, c) in self.vectors.iter().zip(coefficients) {
+            self.sum.iter_mut().zip(&vector[self.range.clone()]).for_each(|(x, v)| *x += c * v);
+        }
+        &self.sum
     }
 }
