@@ -18,7 +18,7 @@ const TABLE = {
     without: ['render'],
     bundles: { 'core.js': 'core.js', 'node.cjs': 'node.js' },
     copies: ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs'],
-    types: { index: ['package', 'files', 'mesh', 'field', 'smoothing'] },
+    types: { index: ['package', 'files', 'mesh', 'field', 'smoothing', 'family'] },
     // 36 kB for the sparse solver, 32 kB for persistence, Morse complex and the like, 29 kB for constraints, filters and the
     // intrinsic Delaunay Laplacian, 27 kB for missing values, stopping, memory that is made sure of, welding with a tolerance and
     // extrema that cannot be avoided, 120 kB for all else.

@@ -35,7 +35,7 @@ pub(crate) fn norm(a: Vector) -> f64 {
 }
 
 /// The diagonal of the bounding box of some positions.
-pub(super) fn diagonal(positions: &[f64]) -> f64 {
+pub(crate) fn diagonal(positions: &[f64]) -> f64 {
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for point in positions.chunks_exact(3) {
         for axis in 0..3 {

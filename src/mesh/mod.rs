@@ -11,7 +11,7 @@ mod weld;
 use std::sync::Arc;
 
 pub use connectivity::{Connectivity, LinkKind};
-pub(crate) use geometry::{cross, difference, dot, norm};
+pub(crate) use geometry::{cross, diagonal, difference, dot, norm};
 pub use submesh::Submesh;
 pub use topology::MeshTopology;
 pub use weld::{WeldOptions, Welded, WeldedField, weld};

@@ -73,6 +73,15 @@ impl<'a> Method<'a> {
         }
     }
 
+    /// The same with another ε, where it has one.
+    pub(super) fn with_epsilon(self, epsilon: f64) -> Self {
+        match self {
+            Self::Tikhonov(options) => Self::Tikhonov(TikhonovOptions { epsilon, ..options }),
+            Self::LeastSquares(options) => Self::LeastSquares(LeastSquaresOptions { epsilon, ..options }),
+            other => other,
+        }
+    }
+
     fn constraints(&self) -> Option<&Constraints<'a>> {
         match self {
             Self::Interpolate(options) => Some(&options.constraints),

@@ -3,6 +3,7 @@
 mod active;
 mod bounds;
 mod channels;
+mod choice;
 mod constraints;
 mod data_term;
 mod family;
@@ -22,11 +23,9 @@ mod system;
 mod systems;
 mod unconstrained;
 
+pub use choice::{ChosenEpsilon, Confidence, NoiseLevel, RuleName};
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
-pub use family::{
-    ChosenEpsilon, Confidence, EpsilonRule, ExtremumLife, Family, FamilyMethod, FamilyOptions, NoiseLevel, Sweep,
-    SweepOptions,
-};
+pub use family::{EpsilonRule, ExtremumLife, Family, FamilyMethod, FamilyOptions, Sweep, SweepOptions};
 pub use maximum_principle::MaximumPrinciple;
 pub use method::Method;
 pub use methods::{
@@ -43,7 +42,7 @@ use nalgebra_sparse::CscMatrix;
 
 use crate::error::Result;
 use crate::mesh::TriMesh;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 use method::Masked;
 use operators::Operators;
 use systems::Systems;
@@ -323,6 +322,33 @@ impl Smoother {
     /// ```
     pub fn family(&mut self, values: &[f64], options: &FamilyOptions<'_>, watch: &Watch<'_>) -> Result<Family> {
         Family::new(&self.operators, &mut self.systems, &mut self.masked, values, options, watch)
+    }
+
+    /// Smooths by a method with the ε that a rule chooses: through a family, then by the method itself. Reports say why.
+    ///
+    /// The range is that of [`FamilyOptions`]; with [`Operator::Fem`], where ε has the units of the mesh, from waves as long as the mesh
+    /// to waves as long as its edges.
+    ///
+    /// # Errors
+    /// Those of [`Smoother::family`] and [`Family::choose`]; `InvalidOption` for a method without ε.
+    pub fn apply_chosen(
+        &mut self,
+        values: &[f64],
+        method: &Method<'_>,
+        rule: EpsilonRule,
+        watch: &Watch<'_>,
+    ) -> Result<Smoothed> {
+        let mut plan = watch.plan(&[(Phase::Factorization, 9.0), (Phase::Factorization, 1.0)]);
+        plan.begin(0)?;
+        let options = FamilyOptions::for_choice(method, rule, &self.operators)?;
+        let choice = self.family(values, &options, watch)?.choose(rule, watch)?;
+        plan.begin(0)?;
+        let mut smoothed = self.apply(values, &method.with_epsilon(choice.epsilon), watch)?;
+        for report in &mut smoothed.reports {
+            report.choice = Some(choice.clone());
+        }
+        plan.finish()?;
+        Ok(smoothed)
     }
 
     /// Adds a shift to a family that was made with a limit of factorisations; whether it is complete then.

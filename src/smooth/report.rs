@@ -7,6 +7,7 @@ use super::constraints::ConstraintSet;
 use super::input::Input;
 use super::maximum_principle::MaximumPrinciple;
 use super::missing::Part;
+use super::choice::ChosenEpsilon;
 use super::names::{Equation, MethodName, Route, UsedPrecision};
 use super::operators::Operators;
 use super::routes::difference;
@@ -70,6 +71,8 @@ pub struct SmoothReport {
     /// Bound on ‖x − x_e‖₂/‖e‖₂ for a perturbation e of f (of the constrained values, for interpolation): \[Patane09, sections
     /// 4.2 and 4.3\]. `None` unless asked for, for the bilateral filter, which is not linear, and where rounding hides it.
     pub perturbation_factor: Option<f64>,
+    /// How ε was chosen, where a rule did it.
+    pub choice: Option<ChosenEpsilon>,
     /// For harmonic interpolation.
     pub maximum_principle: Option<MaximumPrinciple>,
     /// How the system was solved.
@@ -237,6 +240,7 @@ pub(super) fn measure(
         preserved: kept.as_ref().map(|kept| kept.preserved),
         free_extrema: kept.as_ref().map(|kept| kept.free_extrema),
         perturbation_factor: facts.perturbation_factor,
+        choice: None,
         maximum_principle: facts.measures.maximum_principle,
         solver: facts.solver,
     })

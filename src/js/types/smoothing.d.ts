@@ -63,9 +63,9 @@ export interface TikhonovOptions extends FillOptions {
   unconstrained?: 'error' | 'keep' | 'mean';
   /**
    * ε > 0, without a unit (with scale `"raw"`: per area; with operator `"fem"`: per length⁴). Large keeps the field, small
-   * smooths it; the range of interest is wide, say 1e-6 to 1e4 where ε has no unit.
+   * smooths it; the range of interest is wide, say 1e-6 to 1e4 where ε has no unit. Or a rule that chooses it.
    */
-  epsilon: number;
+  epsilon: Epsilon;
   /** Default `"mass"`. Operator `"fem"` has its own: `InapplicableOption`. */
   metric?: Metric;
   /** Default `"meanOne"`. Metric `"identity"` has no mass to scale, operator `"fem"` its own: `InapplicableOption`. */
@@ -159,7 +159,7 @@ export interface InterpolateOptions extends ConstraintOptions {
 /** The options of least squares with constraints. */
 export interface LeastSquaresOptions extends ConstraintOptions {
   /** ε > 0, without a unit (with operator `"fem"`: per length²). Large fits the constrained values, small smooths. */
-  epsilon: number;
+  epsilon: Epsilon;
   /**
    * Positive weights of the constrained vertices: for vertices by number, without stars, one for each of them as they are listed
    * (of a vertex listed twice the larger one counts), else one for each of {@link TriMesh.constrainedVertices}. Default 1 each.
@@ -241,6 +241,17 @@ export class Smoother {
    */
   bilateral(values: Numbers, options: BilateralOptions & ProgressOptions): Smoothed;
 
+  /**
+   * The smoothed fields of all ε at once: about a dozen factorisations, after which each ε takes milliseconds. Only one call of the smoother
+   * or of its families' `grow` runs at a time.
+   *
+   * @throws as the method; `InvalidOption` for the range and the tolerance
+   */
+  family(values: Numbers, options?: FamilyOptions): SmoothingFamily;
+
+  /** Norms and numbers of critical points along ε, by a family that is made and freed for it. */
+  sweep(values: Numbers, options?: FamilyOptions & SweepOptions): Sweep;
+
   /** Gives the memory back, as {@link TriMesh.free} does. */
   free(): void;
   [Symbol.dispose](): void;
@@ -263,6 +274,8 @@ export interface SmoothReport {
   equation: string;
   /** The ε that was used; `null` where there is none. */
   epsilon: number | null;
+  /** How ε was chosen; `null` where it was given, or there is none. */
+  choice: ChosenEpsilon | null;
   /** How many vertices are constrained, stars included. */
   constraintCount: number;
   before: CriticalCounts;
@@ -318,12 +331,13 @@ export interface SolverReport {
    * - `"cgComplexCholesky"`: conjugate gradients, preconditioned by the complex factor; for eq. (5) where LᵀL is large
    * - `"cgMultigrid"`: conjugate gradients, preconditioned by multigrid, without a factor
    * - `"cgJacobi"`: conjugate gradients, preconditioned by the diagonal
+   * - `"family"`: the space of a {@link SmoothingFamily}
    * - `"none"`: there was nothing to solve, or the method is a filter
    *
    * Only the second and the fifth can do with weights that are not symmetric. Interpolation takes the second, on the pattern of L where
    * it is harmonic, the fourth or the fifth.
    */
-  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none';
+  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none';
   /** The precision of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
   precision: 'double' | 'single' | 'doubleAfterSingle';
   /** Size of the system; 0 for filters. */
@@ -345,14 +359,16 @@ export interface SolverReport {
  * Smooths once. For several fields, or for several ε, a {@link Smoother} is quicker. The method is `"tikhonov"`, or
  * `"leastSquares"` where there are constraints, unless named.
  */
-export function smooth(mesh: TriMesh, values: Numbers, options: SmoothOptions): Smoothed;
+export function smooth(mesh: TriMesh, values: Numbers, options?: SmoothOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByLeastSquaresOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByInterpolationOptions): Smoothed;
 
 /** What {@link smooth} takes. */
-export interface SmoothOptions extends SmootherOptions, TikhonovOptions, ChannelOptions {
+export interface SmoothOptions extends SmootherOptions, Omit<TikhonovOptions, 'epsilon'>, ChannelOptions {
   method?: 'tikhonov';
+  /** As for {@link Smoother.tikhonov}. Default `"auto"`. */
+  epsilon?: Epsilon;
   constraints?: undefined;
 }
 
@@ -364,8 +380,10 @@ export interface SmoothByWavelengthOptions extends SmootherOptions, WavelengthOp
 }
 
 /** What {@link smooth} takes for least squares; weights of constraints are for {@link Smoother.leastSquares}. */
-export interface SmoothByLeastSquaresOptions extends SmootherOptions, Omit<LeastSquaresOptions, 'weights'> {
+export interface SmoothByLeastSquaresOptions extends SmootherOptions, Omit<LeastSquaresOptions, 'weights' | 'epsilon'> {
   method?: 'leastSquares';
+  /** As for {@link Smoother.leastSquares}. Default `"auto"`. */
+  epsilon?: Epsilon;
 }
 
 /** What {@link smooth} takes for interpolation. */

@@ -2,11 +2,10 @@
 
 use super::Family;
 use super::estimate::logarithmic;
-use super::noise::NoiseLevel;
 use super::space::Space;
 use super::traces::Traces;
 use crate::error::{OptionError, Result, SmoothError};
-use crate::support::named::named;
+use crate::smooth::choice::{ChosenEpsilon, NoiseLevel, RuleName};
 use crate::support::watch::{Phase, Watch};
 
 /// A rule that chooses ε.
@@ -30,39 +29,6 @@ pub enum EpsilonRule {
         /// The number.
         count: usize,
     },
-}
-
-/// What a rule is called.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RuleName {
-    /// [`EpsilonRule::Gcv`].
-    Gcv,
-    /// [`EpsilonRule::LCurve`].
-    LCurve,
-    /// [`EpsilonRule::Discrepancy`].
-    Discrepancy,
-    /// [`EpsilonRule::AtMostCriticalPoints`].
-    AtMostCriticalPoints,
-}
-
-named! { RuleName {
-    Gcv = "gcv", LCurve = "lCurve", Discrepancy = "discrepancy", AtMostCriticalPoints = "atMostCriticalPoints",
-} }
-
-/// An ε that a rule chose.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
-pub struct ChosenEpsilon {
-    /// ε.
-    pub epsilon: f64,
-    /// The rule.
-    pub rule: RuleName,
-    /// Why, in a sentence.
-    pub reason: String,
-    /// The values of ε that came next: other minima or corners, the best one first.
-    pub runners_up: Vec<f64>,
-    /// The level of the noise, by the rules that need it.
-    pub noise: Option<NoiseLevel>,
 }
 
 /// ε are compared on this grid.

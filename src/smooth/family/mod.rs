@@ -19,10 +19,9 @@ mod traces;
 
 use std::sync::Arc;
 
-pub use choose::{ChosenEpsilon, EpsilonRule};
+pub use choose::EpsilonRule;
 pub use curves::{Sweep, SweepOptions};
 pub use lives::ExtremumLife;
-pub use noise::{Confidence, NoiseLevel};
 pub use options::{FamilyMethod, FamilyOptions};
 
 use super::channels::{Channel, Channels};

@@ -3,49 +3,6 @@
 use super::Family;
 use crate::mesh::Connectivity;
 use crate::support::counting_sort::{Buckets, grouped};
-use crate::support::named::named;
-
-/// How far two ways of finding the level of the noise agree.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Confidence {
-    /// To within 15 %.
-    High,
-    /// To within a factor of 1.5.
-    Medium,
-    /// No better: the noise of neighbouring vertices is alike, or the mesh is too coarse for the field.
-    Low,
-}
-
-named! { Confidence { High = "high", Medium = "medium", Low = "low" } }
-
-/// The level of the noise of a field.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
-pub struct NoiseLevel {
-    /// The standard deviation in the units of the field, from what smoothing takes away at the ε of cross-validation, over the degrees of
-    /// freedom that it takes away: the high end of the spectrum.
-    pub standard_deviation: f64,
-    /// The same from second differences along edges, by their median: robust, but too large where the mesh is coarse for the field.
-    pub by_differences: f64,
-    /// How far the two agree.
-    pub confidence: Confidence,
-}
-
-impl NoiseLevel {
-    pub(super) fn new(standard_deviation: f64, by_differences: f64) -> Self {
-        let quotient = if standard_deviation > by_differences {
-            standard_deviation / by_differences
-        } else {
-            by_differences / standard_deviation
-        };
-        let confidence = match quotient {
-            quotient if quotient <= 1.15 => Confidence::High,
-            quotient if quotient <= 1.5 => Confidence::Medium,
-            _ => Confidence::Low,
-        };
-        Self { standard_deviation, by_differences, confidence }
-    }
-}
 
 /// The median of |x| for a normal distribution of standard deviation 1.
 const MEDIAN: f64 = 0.674_489_750_196_081_7;

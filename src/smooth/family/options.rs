@@ -1,7 +1,10 @@
 //! What a family is made with.
 
 use crate::error::OptionError;
-use crate::smooth::{LeastSquaresOptions, Method, TikhonovOptions};
+use super::choose::EpsilonRule;
+use crate::mesh::{TriMesh, diagonal};
+use crate::smooth::operators::Operators;
+use crate::smooth::{LeastSquaresOptions, Method, Operator, TikhonovOptions, epsilon_for_wavelength};
 
 /// The methods that have families.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +60,46 @@ impl Default for FamilyOptions<'_> {
 const WIDEST: f64 = 1e16;
 /// Below this, rounding decides.
 const SMALLEST_TOLERANCE: f64 = 1e-10;
+
+/// The tolerance for rules that look at norms alone, and for those that count.
+const FOR_NORMS: f64 = 1e-4;
+const FOR_COUNTS: f64 = 1e-6;
+
+impl<'a> FamilyOptions<'a> {
+    /// A family that is to choose ε for a method.
+    ///
+    /// # Errors
+    /// `InvalidOption` for a method without ε.
+    pub(in crate::smooth) fn for_choice(
+        method: &Method<'a>,
+        rule: EpsilonRule,
+        operators: &Operators,
+    ) -> Result<Self, OptionError> {
+        let defaults = Self::default();
+        let range = match operators.options.operator {
+            Operator::Paper => defaults.range,
+            Operator::Fem => wavelengths(&operators.mesh).unwrap_or(defaults.range),
+        };
+        let middle = (range.0 * range.1).sqrt();
+        let method = match method.with_epsilon(middle) {
+            Method::Tikhonov(options) => FamilyMethod::Tikhonov(options),
+            Method::LeastSquares(options) => FamilyMethod::LeastSquares(options),
+            _ => return Err(OptionError::invalid("method", "`tikhonov` or `leastSquares`, which have ε")),
+        };
+        let tolerance =
+            if matches!(rule, EpsilonRule::AtMostCriticalPoints { .. }) { FOR_COUNTS } else { FOR_NORMS };
+        Ok(Self { method, range, tolerance, ..defaults })
+    }
+}
+
+/// The ε that halve waves as long as the mesh's bounding box is wide, and those as long as its edges, with a decade more on either side.
+fn wavelengths(mesh: &TriMesh) -> Option<(f64, f64)> {
+    let edge = (mesh.area() / mesh.triangle_count().max(1) as f64).sqrt();
+    let largest = 10.0 * epsilon_for_wavelength(edge).ok()?;
+    let least = 0.1 * epsilon_for_wavelength(diagonal(mesh.positions())).ok()?;
+    let range = (least.max(largest / WIDEST), largest);
+    (range.0 > 0.0 && range.0 < range.1 && range.1.is_finite()).then_some(range)
+}
 
 impl FamilyOptions<'_> {
     /// # Errors

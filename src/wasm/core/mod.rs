@@ -1,6 +1,7 @@
 //! The bindings of `morse-smooth`.
 
 mod critical;
+mod family;
 mod files;
 mod levels;
 mod mesh;

@@ -7,7 +7,7 @@ use wasm_bindgen::JsValue;
 use crate::error::{Diagnostic, OutOfMemory};
 use crate::field::CriticalCounts;
 use crate::mesh::MeshTopology;
-use crate::smooth::{MaximumPrinciple, SmoothReport, SmoothnessEnergies, SolverReport};
+use crate::smooth::{ChosenEpsilon, MaximumPrinciple, SmoothReport, SmoothnessEnergies, SolverReport};
 use crate::wasm::shared::answer::Answer;
 
 pub(super) fn diagnostics(warnings: &[Diagnostic]) -> Array {
@@ -77,8 +77,33 @@ pub(super) fn smoothing(report: &SmoothReport) -> Object {
         Some(principle) => answer.part("maximumPrinciple", maximum_principle(principle)),
         None => answer.set("maximumPrinciple", &JsValue::NULL),
     }
+    match &report.choice {
+        Some(choice) => answer.part("choice", chosen(choice)),
+        None => answer.set("choice", &JsValue::NULL),
+    }
     answer.part("solver", solver(&report.solver));
     answer.object()
+}
+
+/// An ε with the reason why it was chosen.
+pub(super) fn chosen(choice: &ChosenEpsilon) -> Answer {
+    let answer = Answer::new();
+    answer.number("epsilon", choice.epsilon);
+    answer.text("rule", choice.rule.name());
+    answer.text("reason", &choice.reason);
+    let runners_up: Array = choice.runners_up.iter().map(|&epsilon| JsValue::from_f64(epsilon)).collect();
+    answer.set("runnersUp", &runners_up);
+    match &choice.noise {
+        Some(noise) => {
+            let level = Answer::new();
+            level.number("standardDeviation", noise.standard_deviation);
+            level.number("byDifferences", noise.by_differences);
+            level.text("confidence", noise.confidence.name());
+            answer.part("noise", level);
+        }
+        None => answer.set("noise", &JsValue::NULL),
+    }
+    answer
 }
 
 fn maximum_principle(principle: &MaximumPrinciple) -> Answer {

@@ -20,6 +20,12 @@ pub struct RawSmoother {
     smoother: Smoother,
 }
 
+impl RawSmoother {
+    pub(super) fn smoother(&mut self) -> &mut Smoother {
+        &mut self.smoother
+    }
+}
+
 #[wasm_bindgen]
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawSmoother {
@@ -47,10 +53,10 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
         let options = smoother(record);
         let default = if record.holds("constraints") { ShortMethod::LeastSquares } else { ShortMethod::Tikhonov };
         let method = record.choice("method").unwrap_or(default);
-        let smoothing = Smoothing::read(record, method.method(), options.operator);
+        let smoothing = Smoothing::read_with_default(record, method.method(), options.operator);
         record.foreign("the method does not have it", &|record| {
             for other in ShortMethod::ALL {
-                Smoothing::read(record, other.method(), options.operator);
+                Smoothing::read_with_default(record, other.method(), options.operator);
             }
         });
         (options, smoothing, Watching::read(record))
@@ -61,11 +67,15 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
 
 fn run(smoother: &mut Smoother, smoothing: &Smoothing, watching: &Watching, values: &Float64Array) -> Outcome<Object> {
     let values = floats(values)?;
-    let smoothed = watching.run(|watch| smoother.apply(&values, &smoothing.method(), watch)).map_err(from_rule)?;
-    answer(&smoothed)
+    let method = smoothing.method();
+    let smoothed = watching.run(|watch| match smoothing.rule() {
+        None => smoother.apply(&values, &method, watch),
+        Some(rule) => smoother.apply_chosen(&values, &method, rule, watch),
+    });
+    answer(&smoothed.map_err(from_rule)?)
 }
 
-fn answer(smoothed: &Smoothed) -> Outcome<Object> {
+pub(super) fn answer(smoothed: &Smoothed) -> Outcome<Object> {
     let reports: Array = smoothed.reports.iter().map(reports::smoothing).collect();
     let answer = Answer::new();
     answer.array("values", &smoothed.values);

@@ -1,6 +1,8 @@
 import { toNumbers, toOptions } from '../../runtime/convert.js';
 import { watched } from '../../runtime/progress.js';
+import { Handle } from '../../runtime/handles.js';
 import { toConstraints } from './arguments.js';
+import { familyOf, toRule } from './family.js';
 import { handleOf } from './mesh.js';
 import { core } from './module.js';
 
@@ -49,15 +51,38 @@ export class Smoother {
     return this.#smooth('bilateral', values, options);
   }
 
+  family(values, options) {
+    const given = toOptions(options);
+    if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
+    const numbers = toNumbers(values, 'values');
+    const settings = withConstraints(this.#watching(given), this.#vertexCount);
+    const raw = watched(settings, (settings) => this.#handle.useAlone((raw) => raw.family(numbers, settings)));
+    return familyOf(new Handle('SmoothingFamily', this.#handle.instance, raw), this.#handle, this.#onProgress);
+  }
+
+  sweep(values, options) {
+    const { epsilons, counts, channel, ...rest } = toOptions(options) ?? {};
+    const family = this.family(values, rest);
+    try {
+      return family.sweep({ epsilons, counts, channel, onProgress: rest.onProgress });
+    } finally {
+      family.free();
+    }
+  }
+
   free() {
     this.#handle.free();
+  }
+
+  /** The options of a call with what is to be called back: their own, or the smoother's. */
+  #watching(given) {
+    return isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
   }
 
   #smooth(method, values, options) {
     const given = toOptions(options);
     const numbers = toNumbers(values, 'values');
-    const all =
-      isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    const all = withRule(this.#watching(given));
     const settings = CONSTRAINED.includes(method) ? withConstraints(all, this.#vertexCount) : all;
     return watched(settings, (settings) => this.#handle.useAlone((raw) => raw.apply(method, numbers, settings)));
   }
@@ -67,7 +92,7 @@ export function smooth(mesh, values, options) {
   void core.instance;
   const source = handleOf(mesh);
   const numbers = toNumbers(values, 'values');
-  const given = withConstraints(toOptions(options), mesh.vertexCount);
+  const given = withRule(withConstraints(toOptions(options), mesh.vertexCount));
   return watched(given, (settings) => source.use((rawMesh, glue) => glue.smooth(rawMesh, numbers, settings)));
 }
 
@@ -76,6 +101,11 @@ function withConstraints(settings, vertexCount) {
   const constraints = settings?.constraints;
   if (isGiven(constraints)) settings.constraints = toConstraints(constraints, vertexCount);
   return settings;
+}
+
+/** Options whose ε, where it is a rule, is as the wasm module takes it. */
+function withRule(settings) {
+  return isGiven(settings?.epsilon) ? { ...settings, epsilon: toRule(settings.epsilon) } : settings;
 }
 
 const isGiven = (value) => value !== undefined && value !== null;

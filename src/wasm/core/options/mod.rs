@@ -1,10 +1,12 @@
 //! The options of the core: each kind is read here, in one place.
 
 mod constraints;
+mod epsilon;
 mod record;
 mod smoothing;
 
 pub(super) use constraints::{Constraining, from_rule};
+pub(super) use epsilon::{FamilyChoice, epsilon_rule};
 pub(super) use smoothing::{ShortMethod, Smoothing, smoother};
 
 use js_sys::Uint32Array;

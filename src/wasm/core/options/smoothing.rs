@@ -3,10 +3,10 @@
 use js_sys::Float64Array;
 
 use super::Constraining;
-use crate::error::OptionError;
+use super::epsilon::epsilon;
 use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Constraints, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, MethodName, Metric,
+    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, MethodName, Metric,
     Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
@@ -47,9 +47,9 @@ impl ShortMethod {
 
 /// A method with its options; owns what the options of `smooth` borrow.
 pub(in crate::wasm::core) enum Smoothing {
-    Tikhonov(TikhonovOptions),
+    Tikhonov(TikhonovOptions, Option<EpsilonRule>),
     Interpolate(Constraining, InterpolateOptions<'static>),
-    LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>),
+    LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>, Option<EpsilonRule>),
     LowPass(LowPassOptions),
     Bilateral(BilateralOptions),
 }
@@ -57,10 +57,22 @@ pub(in crate::wasm::core) enum Smoothing {
 impl Smoothing {
     /// `operator` is the smoother's: not every option goes with every operator.
     pub(in crate::wasm::core) fn read(record: &Record, method: MethodName, operator: Operator) -> Self {
+        Self::read_with(record, method, operator, false)
+    }
+
+    /// The same where ε is chosen if it is not given.
+    pub(in crate::wasm::core) fn read_with_default(record: &Record, method: MethodName, operator: Operator) -> Self {
+        Self::read_with(record, method, operator, true)
+    }
+
+    fn read_with(record: &Record, method: MethodName, operator: Operator, has_default: bool) -> Self {
         let channels = record.integer("channels").map_or(1, |channels| channels as usize);
         let missing = record.choice("missing").unwrap_or_default();
         match method {
-            MethodName::Tikhonov => Self::Tikhonov(TikhonovOptions { channels, missing, ..tikhonov(record, operator) }),
+            MethodName::Tikhonov => {
+                let (options, rule) = tikhonov(record, operator, has_default);
+                Self::Tikhonov(TikhonovOptions { channels, missing, ..options }, rule)
+            }
             MethodName::Interpolate => {
                 let (constraining, constraints) = constraints(record);
                 let energy = record.choice("energy").unwrap_or_default();
@@ -68,9 +80,9 @@ impl Smoothing {
             }
             MethodName::LeastSquares => {
                 let (constraining, constraints) = constraints(record);
-                let options =
-                    LeastSquaresOptions { constraints, epsilon: epsilon(record), weights: None, channels, missing };
-                Self::LeastSquares(constraining, None, options)
+                let (epsilon, rule) = epsilon(record, has_default);
+                let options = LeastSquaresOptions { constraints, epsilon, weights: None, channels, missing };
+                Self::LeastSquares(constraining, None, options, rule)
             }
             MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
             MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
@@ -79,21 +91,29 @@ impl Smoothing {
 
     /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
     pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
-        if let Self::LeastSquares(_, weights, _) = &mut self {
+        if let Self::LeastSquares(_, weights, ..) = &mut self {
             let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
             *weights = array.and_then(|array| record.taken(floats(&array)));
         }
         self
     }
 
+    /// The rule that chooses ε, where none is given.
+    pub(in crate::wasm::core) fn rule(&self) -> Option<EpsilonRule> {
+        match self {
+            Self::Tikhonov(_, rule) | Self::LeastSquares(.., rule) => *rule,
+            _ => None,
+        }
+    }
+
     pub(in crate::wasm::core) fn method(&self) -> Method<'_> {
         match self {
-            Self::Tikhonov(options) => Method::Tikhonov(*options),
+            Self::Tikhonov(options, _) => Method::Tikhonov(*options),
             Self::Interpolate(constraining, options) => {
                 let constraints = constraining.constraints(options.constraints.unconstrained);
                 Method::Interpolate(InterpolateOptions { constraints, ..*options })
             }
-            Self::LeastSquares(constraining, weights, options) => {
+            Self::LeastSquares(constraining, weights, options, _) => {
                 let constraints = constraining.constraints(options.constraints.unconstrained);
                 Method::LeastSquares(LeastSquaresOptions { constraints, weights: weights.as_deref(), ..*options })
             }
@@ -113,16 +133,9 @@ fn constraints(record: &Record) -> (Constraining, Constraints<'static>) {
     (constraining, Constraints { unconstrained, ..Constraints::default() })
 }
 
-fn epsilon(record: &Record) -> f64 {
-    if record.get("epsilon").and_then(|epsilon| epsilon.as_string()).as_deref() == Some("auto") {
-        record.refuse(OptionError::UnsupportedOption { option: "epsilon".to_owned(), value: "auto".to_owned() });
-    }
-    record.given("epsilon", "a positive finite number, and it has no default")
-}
-
-fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
-    let epsilon = match record.number("cutoffWavelength") {
-        None => epsilon(record),
+fn tikhonov(record: &Record, operator: Operator, has_default: bool) -> (TikhonovOptions, Option<EpsilonRule>) {
+    let (epsilon, rule) = match record.number("cutoffWavelength") {
+        None => epsilon(record, has_default),
         Some(wavelength) => {
             if operator == Operator::Paper {
                 record.inapplicable("cutoffWavelength", "only the operator `fem` knows lengths");
@@ -130,7 +143,7 @@ fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
             if record.has("epsilon") {
                 record.inapplicable("epsilon", "`cutoffWavelength` says the same");
             }
-            record.taken(epsilon_for_wavelength(wavelength)).unwrap_or_default()
+            (record.taken(epsilon_for_wavelength(wavelength)).unwrap_or_default(), None)
         }
     };
     let metric = record.choice("metric").unwrap_or_default();
@@ -146,13 +159,8 @@ fn tikhonov(record: &Record, operator: Operator) -> TikhonovOptions {
     // Without gaps that are filled in no component is without values.
     let fills = record.choice("missing") == Some(Missing::Fill);
     let unconstrained = if fills { record.choice("unconstrained") } else { None };
-    TikhonovOptions {
-        epsilon,
-        metric,
-        mass_scale,
-        unconstrained: unconstrained.unwrap_or_default(),
-        ..TikhonovOptions::default()
-    }
+    let unconstrained = unconstrained.unwrap_or_default();
+    (TikhonovOptions { epsilon, metric, mass_scale, unconstrained, ..TikhonovOptions::default() }, rule)
 }
 
 fn iterations(record: &Record) -> usize {
