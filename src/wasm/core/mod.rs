@@ -1,7 +1,6 @@
 //! The bindings of `morse-smooth`.
 
 mod critical;
-mod files;
 mod levels;
 mod mesh;
 mod options;
@@ -11,6 +10,5 @@ mod reports;
 mod smoother;
 mod watching;
 
-pub use files::{read_field, read_mesh, write_mesh};
 pub use mesh::RawTriMesh;
 pub use smoother::{RawSmoother, smooth};

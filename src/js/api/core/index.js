@@ -4,7 +4,6 @@ import { Smoother } from './smoother.js';
 import { TriMesh } from './mesh.js';
 
 export { MorseSmoothError } from '../../runtime/error.js';
-export { readField, readMesh, writeMesh } from './files.js';
 export { TriMesh } from './mesh.js';
 export { Smoother, smooth } from './smoother.js';
 
