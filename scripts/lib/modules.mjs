@@ -28,14 +28,14 @@ const TABLE = {
     },
     // 36 kB for the sparse solver, 32 kB for persistence, Morse complex and the like, 29 kB for constraints, filters and the
     // intrinsic Delaunay Laplacian, 27 kB for missing values, stopping, memory that is made sure of, welding with a tolerance and
-    // extrema that cannot be avoided, 90 kB for all else.
-    limit: 246_000,
+    // extrema that cannot be avoided, 83 kB for all else.
+    limit: 209_400,
   },
   files: {
     ...besideTheMain('files'),
     title: 'the WebAssembly module of the files',
     without: ['operators', 'render', 'smooth', 'solve'],
-    limit: 60_000,
+    limit: 68_700,
   },
   snapshot: {
     ...besideTheMain('snapshot'),

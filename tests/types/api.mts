@@ -342,8 +342,6 @@ const remade: Error = new MorseSmoothError('NonFiniteValue', 'the value at verte
 export const used = [
   ...[
     done,
-    fields,
-    bytes,
     genus,
     handles,
     components,
