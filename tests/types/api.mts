@@ -340,16 +340,7 @@ try {
 const remade: Error = new MorseSmoothError('NonFiniteValue', 'the value at vertex 3 is not finite', { vertex: 3 });
 
 export const used = [
-  ...[
-    done,
-    genus,
-    handles,
-    components,
-    boundaryLoops,
-    orientable,
-    nonManifoldEdges,
-    nonManifoldVertices,
-  ],
+  ...[done, genus, handles, components, boundaryLoops, orientable, nonManifoldEdges, nonManifoldVertices],
   ...[
     isolatedVertices,
     degenerateTriangles,

@@ -1,5 +1,5 @@
 /**
- * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A second WebAssembly module, which draws the
+ * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A WebAssembly module of its own, which draws
  * same bytes everywhere.
  *
  * @module
