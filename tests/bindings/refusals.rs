@@ -1,6 +1,6 @@
 //! Wrong options and data.
 
-use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Uint32Array};
 use morse_smooth::wasm::{RawSmoother, RawTriMesh, smooth};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;

@@ -1,6 +1,6 @@
 /**
  * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A WebAssembly module of its own, which draws
- * same bytes everywhere.
+ * the same bytes everywhere.
  *
  * @module
  */
