@@ -1,11 +1,13 @@
 // node examples/critical-points.mjs file field: reads a mesh with its fields and prints the critical points of one.
 import { readFileSync } from 'node:fs';
-import init, { readMesh } from 'morse-smooth';
+import init, { TriMesh } from 'morse-smooth';
+import initFiles, { readMesh } from 'morse-smooth/files';
 
 const [file = 'www/public/examples/torus_irregular.ply', name = 'clean'] = process.argv.slice(2);
-await init(); // loads the WebAssembly module in a browser; Node has done so on import
-const { mesh, fields, warnings } = readMesh(readFileSync(file));
-for (const { message } of warnings) console.log(`warning: ${message}`);
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+const { positions, triangles, fields, warnings } = readMesh(readFileSync(file));
+const mesh = new TriMesh(positions, triangles);
+for (const { message } of [...warnings, ...mesh.warnings]) console.log(`warning: ${message}`);
 if (!fields[name]) throw new Error(`${file} has no field ${name}, but ${Object.keys(fields).join(', ')}`);
 
 const { vertices, kinds, counts } = mesh.criticalPoints(fields[name]);

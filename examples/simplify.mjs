@@ -1,8 +1,10 @@
 import { readFileSync } from 'node:fs';
-import init, { readMesh } from 'morse-smooth';
+import init, { TriMesh } from 'morse-smooth';
+import initFiles, { readMesh } from 'morse-smooth/files';
 
-await init(); // loads the WebAssembly module in a browser; Node has done so on import
-const { mesh, fields } = readMesh(readFileSync('www/public/examples/torus_irregular.ply'));
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+const { positions, triangles, fields } = readMesh(readFileSync('www/public/examples/torus_irregular.ply'));
+const mesh = new TriMesh(positions, triangles);
 const { minima, maxima, saddles } = mesh.criticalPoints(fields.noisy).counts;
 console.log(`${minima} minima, ${maxima} maxima, ${saddles} saddles`);
 

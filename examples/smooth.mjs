@@ -1,10 +1,10 @@
 import { readFileSync } from 'node:fs';
-import init, { readMesh, smooth } from 'morse-smooth';
+import init, { TriMesh, smooth } from 'morse-smooth';
+import initFiles, { readMesh } from 'morse-smooth/files';
 
-await init(); // loads the WebAssembly module in a browser; Node has done so on import
-const { mesh, fields } = readMesh(readFileSync('www/public/examples/torus_irregular.ply'));
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+const { positions, triangles, fields } = readMesh(readFileSync('www/public/examples/torus_irregular.ply'));
+const mesh = new TriMesh(positions, triangles);
 const { values, report } = smooth(mesh, fields.noisy, { epsilon: 0.05 });
 const { before, after } = report;
-const counts = `minima ${before.minima} → ${after.minima}, maxima ${before.maxima} → ${after.maxima}`;
-console.log(`${counts}, of ${values.length}`);
-mesh.free();
+console.log(`minima ${before.minima} → ${after.minima}, maxima ${before.maxima} → ${after.maxima}, of`, values.length);

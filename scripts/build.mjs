@@ -7,7 +7,7 @@ import { pathToFileURL } from 'node:url';
 import { bundle } from './lib/bundle.mjs';
 import { withLock } from './lib/lock.mjs';
 import { Problem, main, step } from './lib/log.mjs';
-import { isMadeFrom, modules } from './lib/modules.mjs';
+import { cargoFeatures, isMadeFrom, modules } from './lib/modules.mjs';
 import { dist, inRoot, pkg, root } from './lib/paths.mjs';
 import { ask } from './lib/run.mjs';
 import { runWasmPack } from './lib/wasm-pack.mjs';
@@ -63,9 +63,10 @@ function hashOf(files) {
 }
 
 /** Each module has a folder of its own, because wasm-pack optimises all that lie in its folder. */
-async function buildWasm({ name, feature, title, built }) {
+async function buildWasm(module) {
+  const { name, title, built } = module;
   const parameters = ['build', '--target', 'web', '--release', '--no-pack', '--no-gitignore'];
-  parameters.push('--out-dir', dirname(built), '--out-name', name, '--', '--features', feature, '--locked');
+  parameters.push('--out-dir', dirname(built), '--out-name', name, '--', ...cargoFeatures(module), '--locked');
   const { code, output } = await runWasmPack(parameters, { env: { RUSTFLAGS: rustFlags() } });
   if (code !== 0) throw new Problem(`${output}\n${title} does not build.`);
 }

@@ -2,7 +2,7 @@
 import { existsSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { Problem, main } from './lib/log.mjs';
-import { modules } from './lib/modules.mjs';
+import { cargoFeatures, modules } from './lib/modules.mjs';
 import { inRoot } from './lib/paths.mjs';
 import { ask, must } from './lib/run.mjs';
 import { runChecks } from './lib/sections.mjs';
@@ -13,17 +13,17 @@ const node = process.execPath;
 const prettier = inRoot('node_modules', 'prettier', 'bin', 'prettier.cjs');
 const tsc = inRoot('node_modules', 'typescript', 'bin', 'tsc');
 const PEERS = inRoot('benches', 'peers', 'src', 'lib.rs');
-const WASM = ['--target', 'wasm32-unknown-unknown', '--features'];
+const WASM = ['--target', 'wasm32-unknown-unknown'];
 
 export const lints = [
   { name: 'cargo fmt', command: 'cargo', parameters: ['fmt', '--check'] },
   // No part of the package, so `cargo fmt` passes it by.
   { name: 'rustfmt, benches/peers', command: 'rustfmt', parameters: ['--edition', '2024', '--check', PEERS] },
   { name: 'cargo clippy', command: 'cargo', parameters: clippy('--all-targets', '--features', 'render') },
-  ...Object.values(modules).map(({ feature }) => ({
-    name: `cargo clippy, ${feature}`,
+  ...Object.values(modules).map((module) => ({
+    name: `cargo clippy, ${module.feature}`,
     command: 'cargo',
-    parameters: clippy(...WASM, feature),
+    parameters: clippy(...WASM, ...cargoFeatures(module)),
   })),
   { name: 'prettier', command: node, parameters: [prettier, '--check', '--log-level=warn', '.'] },
 ];

@@ -7,7 +7,8 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import init, { readMesh } from 'morse-smooth';
+import init, { TriMesh } from 'morse-smooth';
+import initFiles, { readMesh } from 'morse-smooth/files';
 
 const LIMIT = 1e6;
 const source = process.argv[2];
@@ -16,20 +17,20 @@ if (!source) {
   process.exit(1);
 }
 const target = fileURLToPath(new URL('../www/public/examples/', import.meta.url));
-await init();
+await Promise.all([init(), initFiles()]);
 
 // Small enough as they are; their counts are known exactly, so not a bit is changed.
 for (const name of ['genus22.ply', 'torus_irregular.ply']) save(name, readFileSync(join(source, name)));
 
 // Text to binary, positions and potential in single precision.
 {
-  const { mesh, fields } = read('lysozyme_potential.ply');
-  save('lysozyme_potential.ply', encode(mesh.positions(), mesh.triangles(), { potential: fields.potential }));
+  const { positions, triangles, fields } = read('lysozyme_potential.ply');
+  save('lysozyme_potential.ply', encode(positions, triangles, { potential: fields.potential }));
 }
 
 // A sphere of 179 parallels with 360 nodes each, from 89° south to 89° north, then the two poles: every second of both.
 {
-  const { mesh, fields } = read('egm96_geoid_1deg.ply');
+  const { positions, fields } = read('egm96_geoid_1deg.ply');
   const [rows, columns] = [89, 180];
   const kept = [];
   for (let r = 0; r < rows; r++) for (let c = 0; c < columns; c++) kept.push((2 * r + 1) * 360 + 2 * c);
@@ -42,15 +43,12 @@ for (const name of ['genus22.ply', 'torus_irregular.ply']) save(name, readFileSy
       triangles.push(at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r, c), at(r + 1, c + 1), at(r + 1, c));
     triangles.push(north, at(rows - 1, c), at(rows - 1, c + 1));
   }
-  save(
-    'egm96_geoid_2deg.ply',
-    encode(pick(mesh.positions(), kept, 3), triangles, { geoid_m: pick(fields.geoid_m, kept, 1) }),
-  );
+  save('egm96_geoid_2deg.ply', encode(pick(positions, kept, 3), triangles, { geoid_m: pick(fields.geoid_m, kept, 1) }));
 }
 
 // A grid of 172 columns with 202 nodes each: every second of both.
 {
-  const { mesh, fields } = read('jacksboro_dem.ply');
+  const { positions, fields } = read('jacksboro_dem.ply');
   const [columns, rows] = [86, 101];
   const kept = [];
   for (let c = 0; c < columns; c++) for (let r = 0; r < rows; r++) kept.push(2 * c * 202 + 2 * r);
@@ -63,7 +61,7 @@ for (const name of ['genus22.ply', 'torus_irregular.ply']) save(name, readFileSy
   }
   save(
     'jacksboro_dem.ply',
-    encode(pick(mesh.positions(), kept, 3), triangles, { elevation: pick(fields.elevation, kept, 1) }),
+    encode(pick(positions, kept, 3), triangles, { elevation: pick(fields.elevation, kept, 1) }),
   );
 }
 
@@ -110,7 +108,8 @@ function encode(positions, triangles, fields) {
 function save(name, bytes) {
   if (bytes.length > LIMIT) throw new Error(`${name} has ${bytes.length} bytes, more than ${LIMIT}`);
   writeFileSync(join(target, name), bytes);
-  const { mesh, fields } = readMesh(bytes, { fileName: name });
+  const { positions, triangles, fields } = readMesh(bytes, { fileName: name });
+  const mesh = new TriMesh(positions, triangles);
   const { eulerCharacteristic, boundaryLoops, orientable } = mesh.topology;
   console.log(
     `${name}: ${bytes.length} bytes, ${mesh.vertexCount} vertices, ${mesh.triangleCount} triangles, χ ${eulerCharacteristic}, ${boundaryLoops} boundary loops, ${orientable ? '' : 'not '}orientable`,

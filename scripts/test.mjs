@@ -12,6 +12,8 @@ import { setUp } from './setup.mjs';
 import { checkSize } from './size.mjs';
 
 const BUILD = 'Build of the package';
+/** The modules whose bindings tests/bindings calls. */
+const BINDINGS = 'wasm,wasm-files';
 let browser = null;
 
 const sections = [
@@ -24,7 +26,7 @@ const sections = [
     name: 'Bindings, in Node',
     run: async () =>
       rustResults(
-        await runWasmPack(['test', '--node', '--', '--features', 'wasm', '--test', 'bindings'], { show: true }),
+        await runWasmPack(['test', '--node', '--', '--features', BINDINGS, '--test', 'bindings'], { show: true }),
       ),
   },
   {

@@ -85,6 +85,7 @@ macro_rules! interrupts {
 }
 interrupts!(MeshError, FieldError, SolveError, SmoothError);
 
+#[cfg(feature = "files")]
 impl From<OutOfMemory> for ParseError {
     fn from(OutOfMemory { bytes }: OutOfMemory) -> Self {
         Self::OutOfMemory { bytes }
@@ -155,6 +156,7 @@ macro_rules! stage_error {
     };
 }
 
+#[cfg(feature = "files")]
 stage_error! {
     /// A file could not be read.
     ParseError {
@@ -565,6 +567,7 @@ impl OptionError {
 #[non_exhaustive]
 pub enum Error {
     /// While reading or writing a file.
+    #[cfg(feature = "files")]
     Parse(ParseError),
     /// In the mesh.
     Mesh(MeshError),
@@ -582,8 +585,8 @@ pub enum Error {
 pub type Result<T, E = Error> = core::result::Result<T, E>;
 
 macro_rules! wrap_stage {
-    ($($variant:ident($stage:ident)),*) => {
-        $(impl From<$stage> for Error {
+    ($($(#[$meta:meta])* $variant:ident($stage:ident)),*) => {
+        $($(#[$meta])* impl From<$stage> for Error {
             fn from(error: $stage) -> Self {
                 Self::$variant(error)
             }
@@ -594,7 +597,7 @@ macro_rules! wrap_stage {
             #[must_use]
             pub fn code(&self) -> &'static str {
                 match self {
-                    $(Self::$variant(error) => error.code(),)*
+                    $($(#[$meta])* Self::$variant(error) => error.code(),)*
                 }
             }
 
@@ -602,7 +605,7 @@ macro_rules! wrap_stage {
             #[must_use]
             pub fn detail(&self) -> Vec<(&'static str, Detail)> {
                 match self {
-                    $(Self::$variant(error) => error.detail(),)*
+                    $($(#[$meta])* Self::$variant(error) => error.detail(),)*
                 }
             }
         }
@@ -610,7 +613,7 @@ macro_rules! wrap_stage {
         impl fmt::Display for Error {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
-                    $(Self::$variant(error) => error.fmt(f),)*
+                    $($(#[$meta])* Self::$variant(error) => error.fmt(f),)*
                 }
             }
         }
@@ -618,13 +621,14 @@ macro_rules! wrap_stage {
         impl core::error::Error for Error {
             fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
                 match self {
-                    $(Self::$variant(error) => Some(error),)*
+                    $($(#[$meta])* Self::$variant(error) => Some(error),)*
                 }
             }
         }
     };
 }
 wrap_stage!(
+    #[cfg(feature = "files")]
     Parse(ParseError),
     Mesh(MeshError),
     Field(FieldError),
@@ -663,5 +667,16 @@ impl Diagnostic {
         if count > 0 {
             warnings.push(Self { code, message: message(count), count, examples });
         }
+    }
+
+    /// Adds a warning about the values of a field that are not finite.
+    #[cfg(feature = "files")]
+    pub(crate) fn report_not_finite(warnings: &mut Vec<Self>, name: &str, values: &[f64]) {
+        let not_finite = (0_u32..).zip(values).filter(|(_, value)| !value.is_finite()).map(|(place, _)| place);
+        Self::report(warnings, "NonFiniteValue", &mut { not_finite }, &|count| {
+            format!(
+                "{count} values of `{name}` are not finite; NaN can stand for a missing value, by the option `missing`"
+            )
+        });
     }
 }

@@ -10,7 +10,9 @@
 
 pub mod error;
 pub mod field;
+#[cfg(feature = "files")]
 pub mod io;
+#[cfg(feature = "files")]
 pub mod load;
 pub mod mesh;
 pub mod operators;
@@ -25,6 +27,7 @@ mod support;
 pub mod wasm;
 
 pub use error::{Diagnostic, Error, Result};
+#[cfg(feature = "files")]
 pub use load::load;
 pub use mesh::TriMesh;
 pub use smooth::{Smoother, SmootherOptions};

@@ -13,6 +13,23 @@ pub struct LoadOptions {
     pub weld: Option<WeldOptions>,
 }
 
+/// What a file holds, as plain arrays: vertices are joined, but nothing has been checked as a mesh.
+#[derive(Debug, Clone)]
+pub struct LoadedArrays {
+    /// x, y, z of every vertex, one after the other.
+    pub positions: Vec<f64>,
+    /// Three vertices for every triangle.
+    pub triangles: Vec<u32>,
+    /// As in [`LoadedMesh::fields`].
+    pub fields: Vec<(String, Vec<f64>)>,
+    /// The format read.
+    pub format: MeshFormat,
+    /// As in [`LoadedMesh::vertex_map`].
+    pub vertex_map: Option<Vec<u32>>,
+    /// What was skipped or put right in the file.
+    pub warnings: Vec<Diagnostic>,
+}
+
 /// A mesh read from a file.
 #[derive(Debug, Clone)]
 pub struct LoadedMesh {
@@ -46,6 +63,18 @@ pub struct LoadedMesh {
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
+    let LoadedArrays { positions, triangles, fields, format, vertex_map, mut warnings } = load_arrays(bytes, options)?;
+    let mesh = TriMesh::new(positions, triangles)?;
+    warnings.extend_from_slice(mesh.warnings());
+    Ok(LoadedMesh { mesh, fields, format, vertex_map, warnings })
+}
+
+/// Reads a mesh file and joins vertices where that is asked for, as [`load`] does, but leaves the mesh to be made of it: by
+/// [`TriMesh::new`], which checks positions and triangles.
+///
+/// # Errors
+/// Those of [`io::read_mesh`] and [`weld`].
+pub fn load_arrays(bytes: &[u8], options: &LoadOptions) -> Result<LoadedArrays> {
     let data = io::read_mesh(bytes, &options.read)?;
     let mut warnings = data.warnings;
     let mut fields = data.fields;
@@ -64,15 +93,8 @@ pub fn load(bytes: &[u8], options: &LoadOptions) -> Result<LoadedMesh> {
             (positions, triangles, vertex_map) = (welded.positions, welded.triangles, Some(welded.map));
         }
     }
-    let mesh = TriMesh::new(positions, triangles)?;
     for (name, values) in &fields {
-        let not_finite = (0_u32..).zip(values).filter(|(_, value)| !value.is_finite()).map(|(vertex, _)| vertex);
-        Diagnostic::report(&mut warnings, "NonFiniteValue", &mut { not_finite }, &|count| {
-            format!(
-                "{count} values of `{name}` are not finite; NaN can stand for a missing value, by the option `missing`"
-            )
-        });
+        Diagnostic::report_not_finite(&mut warnings, name, values);
     }
-    warnings.extend_from_slice(mesh.warnings());
-    Ok(LoadedMesh { mesh, fields, format: data.format, vertex_map, warnings })
+    Ok(LoadedArrays { positions, triangles, fields, format: data.format, vertex_map, warnings })
 }

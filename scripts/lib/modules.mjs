@@ -1,42 +1,77 @@
-// What there is of each of the package's WebAssembly modules: everything else follows from this table.
+// What there is of each of the package's WebAssembly modules: everything else follows from this table, or is compared with it.
 import { join } from 'node:path';
 import { pkg } from './paths.mjs';
 
 /**
+ * - `entry`: how the package's users import it.
  * - `name`: what wasm-pack calls the module; `feature`: the crate's feature that makes it.
- * - `bindings`: the folder below src/ that only this module is made from; `without`: those that it does not need.
+ * - `bindings`: the folder below src/ that only this module is made from; `without`: folders and files that it does not need.
  * - `bundles`: what is bundled of src/js/entries/, by the file in dist/ that it becomes; `copies`: what is copied as it is.
  * - `types`: its type declarations, and the parts of src/js/types/ that they consist of, in the order in which one reads them.
+ * - `exports`: what package.json says of its entries.
  * - `limit`: what it may take to download, in bytes with brotli at its best.
  */
 const TABLE = {
   core: {
+    entry: 'morse-smooth',
     name: 'morse_smooth',
     feature: 'wasm',
     title: 'the WebAssembly module',
     bindings: 'wasm/core',
-    without: ['render'],
+    without: ['io', 'load.rs', 'render'],
     bundles: { 'core.js': 'core.js', 'node.cjs': 'node.js' },
     copies: ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs'],
-    types: { index: ['package', 'files', 'mesh', 'field', 'smoothing', 'family'] },
+    types: { index: ['package', 'mesh', 'field', 'smoothing', 'family'] },
+    exports: {
+      '.': exported('index', 'node'),
+      './inline': { types: './dist/inline.d.ts', default: './dist/inline.js' },
+    },
     // 36 kB for the sparse solver, 32 kB for persistence, Morse complex and the like, 29 kB for constraints, filters and the
     // intrinsic Delaunay Laplacian, 27 kB for missing values, stopping, memory that is made sure of, welding with a tolerance and
-    // extrema that cannot be avoided, 120 kB for all else.
-    limit: 246_000,
+    // extrema that cannot be avoided, 83 kB for all else.
+    limit: 209_400,
+  },
+  files: {
+    ...besideTheMain('files'),
+    title: 'the WebAssembly module of the files',
+    without: ['operators', 'render', 'smooth', 'solve'],
+    limit: 68_700,
   },
   snapshot: {
-    name: 'morse_smooth_snapshot',
-    feature: 'wasm-snapshot',
+    ...besideTheMain('snapshot'),
     title: 'the WebAssembly module of the pictures',
-    bindings: 'wasm/snapshot',
-    without: [],
-    bundles: { 'snapshot.js': 'snapshot.js', 'snapshot-node.cjs': 'snapshot-node.js' },
-    copies: ['snapshot-node.mjs'],
-    types: { snapshot: ['snapshot'] },
+    without: ['io', 'load.rs', 'operators', 'smooth', 'solve'],
     // Half of it tiny-skia and png.
     limit: 208_000,
   },
 };
+
+/** What follows from the name of a module that is another entry's. */
+function besideTheMain(name) {
+  return {
+    entry: `morse-smooth/${name}`,
+    name: `morse_smooth_${name}`,
+    feature: `wasm-${name}`,
+    bindings: `wasm/${name}`,
+    bundles: { [`${name}.js`]: `${name}.js`, [`${name}-node.cjs`]: `${name}-node.js` },
+    copies: [`${name}-node.mjs`],
+    types: { [name]: [name] },
+    exports: { [`./${name}`]: exported(name, `${name}-node`) },
+  };
+}
+
+/** What package.json says of an entry with these files for browsers and for Node. */
+function exported(browser, node) {
+  const types = `./dist/${browser}.d.ts`;
+  return {
+    node: {
+      import: { types, default: `./dist/${node}.mjs` },
+      require: { types: `./dist/${browser}.d.cts`, default: `./dist/${node}.cjs` },
+    },
+    types,
+    default: `./dist/${browser}.js`,
+  };
+}
 
 /** The table, with the name of each module's file in dist/ (`wasm`) and where wasm-pack leaves it (`built`). */
 export const modules = Object.fromEntries(
@@ -46,9 +81,12 @@ export const modules = Object.fromEntries(
   }),
 );
 
+/** What cargo is told to compile a module with, and nothing else. */
+export const cargoFeatures = ({ feature }) => ['--no-default-features', '--features', feature];
+
 /** Whether a source file below src/ goes into a module: it need not be built anew for the others. */
 export function isMadeFrom(key, file) {
   const others = Object.entries(modules).filter(([other]) => other !== key);
   const foreign = [...modules[key].without, ...others.map(([, { bindings }]) => bindings)];
-  return !foreign.some((folder) => file.startsWith(`${folder}/`));
+  return !foreign.some((place) => file === place || file.startsWith(`${place}/`));
 }

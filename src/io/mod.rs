@@ -5,7 +5,9 @@
 //! precision is infinite: the mesh and its fields refuse them with their vertex, so that a field with gaps does not keep the rest of the file from loading.
 
 mod assembly;
+mod columns;
 mod cursor;
+mod formats;
 mod mesh_data;
 mod obj;
 mod off;
@@ -15,6 +17,8 @@ mod table;
 mod vtk;
 mod write;
 
+pub use columns::{Table, read_table};
+pub use formats::{FormatInfo, formats};
 pub use mesh_data::{MeshData, MeshFormat};
 pub use table::{Column, FieldFormat, FieldReadOptions, read_field};
 pub use write::{WriteOptions, write_mesh};

@@ -21,6 +21,18 @@ pub enum FieldFormat {
 
 named! { FieldFormat any case { Txt = "txt", Csv = "csv", Npy = "npy" } }
 
+/// How files of `NumPy` begin.
+pub(super) const NPY: &[u8] = b"\x93NUMPY";
+
+/// What stands between the columns of CSV files.
+pub(super) const SEPARATORS: &[u8] = b",;\t";
+
+impl FieldFormat {
+    pub(super) fn unsupported(self) -> ParseError {
+        ParseError::UnsupportedFormat { format: self.name().to_owned() }
+    }
+}
+
 /// A column of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Column {
@@ -70,16 +82,16 @@ pub fn read_field(bytes: &[u8], options: &FieldReadOptions) -> Result<Vec<f64>, 
             Some(column) => Err(unknown_column(column)),
         },
         FieldFormat::Csv => read_column(bytes, options.column.as_ref()),
-        FieldFormat::Npy => Err(ParseError::UnsupportedFormat { format: format.name().to_owned() }),
+        FieldFormat::Npy => Err(format.unsupported()),
     }
 }
 
 fn sniff(bytes: &[u8], column: Option<&Column>) -> FieldFormat {
-    if bytes.starts_with(b"\x93NUMPY") {
+    if bytes.starts_with(NPY) {
         return FieldFormat::Npy;
     }
     let line = first_line(bytes);
-    let separated = line.iter().any(|byte| b",;\t".contains(byte));
+    let separated = line.iter().any(|byte| SEPARATORS.contains(byte));
     let named = matches!(column, Some(Column::Name(_)));
     let numbers = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     if separated || named || numbers.map(parse_number).any(|number| number.is_none()) {
@@ -90,7 +102,7 @@ fn sniff(bytes: &[u8], column: Option<&Column>) -> FieldFormat {
 }
 
 /// The first line that is neither empty nor a comment, without blanks around it and without its comment.
-fn first_line(bytes: &[u8]) -> &[u8] {
+pub(super) fn first_line(bytes: &[u8]) -> &[u8] {
     let mut text = Scanner::new(bytes).with_comments();
     text.next_row();
     let line = text.rest_of_line();
@@ -176,7 +188,7 @@ fn find_column(bytes: &[u8], separator: u8, column: Option<&Column>) -> Result<(
     }
 }
 
-fn separator(line: &[u8]) -> u8 {
+pub(super) fn separator(line: &[u8]) -> u8 {
     let mut quoted = false;
     let mut found = [false; 3];
     for byte in line {
@@ -195,7 +207,7 @@ fn separator(line: &[u8]) -> u8 {
     }
 }
 
-fn parse_cell(cell: &[u8], separator: u8) -> Option<f64> {
+pub(super) fn parse_cell(cell: &[u8], separator: u8) -> Option<f64> {
     parse_number(cell).or_else(|| {
         let comma = cell.iter().position(|&byte| byte == b',').filter(|_| separator == b';')?;
         let mut number = cell.to_vec();
@@ -214,7 +226,7 @@ fn double<T: Clone + Default>(buffer: &mut Vec<T>) -> Result<(), ParseError> {
 }
 
 /// Walks through the records of a CSV file.
-struct Records<'a> {
+pub(super) struct Records<'a> {
     reader: csv_core::Reader,
     bytes: &'a [u8],
     /// Bytes read so far.
@@ -227,13 +239,13 @@ struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    fn new(bytes: &'a [u8], separator: u8) -> Self {
+    pub(super) fn new(bytes: &'a [u8], separator: u8) -> Self {
         let reader = ReaderBuilder::new().delimiter(separator).comment(Some(b'#')).build();
         Self { reader, bytes, position: 0, cells: vec![0; 256], ends: vec![0; 16], count: 0 }
     }
 
     /// Goes to the next record that is not empty; false at the end of the file, where the record has no cells.
-    fn advance(&mut self) -> Result<bool, ParseError> {
+    pub(super) fn advance(&mut self) -> Result<bool, ParseError> {
         let mut filled = 0;
         self.count = 0;
         loop {
@@ -259,19 +271,19 @@ impl<'a> Records<'a> {
         }
     }
 
-    fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.count
     }
 
     /// A cell without the blanks around it.
-    fn cell(&self, place: usize) -> Option<&[u8]> {
+    pub(super) fn cell(&self, place: usize) -> Option<&[u8]> {
         let end = *self.ends[..self.count].get(place)?;
         let start = if place == 0 { 0 } else { self.ends[place - 1] };
         Some(self.cells[start..end].trim_ascii())
     }
 
     /// The 1-based line where the record ends: counted only when an error needs it.
-    fn line(&self) -> u64 {
+    pub(super) fn line(&self) -> u64 {
         let mut text = Scanner::new(self.bytes[..self.position].trim_ascii_end());
         while !text.rest().is_empty() {
             text.rest_of_line();

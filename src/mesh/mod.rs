@@ -14,6 +14,7 @@ pub use connectivity::{Connectivity, LinkKind};
 pub(crate) use geometry::{cross, diagonal, difference, dot, norm};
 pub use submesh::Submesh;
 pub use topology::MeshTopology;
+pub(crate) use validate::check_arrays;
 pub use weld::{WeldOptions, Welded, WeldedField, weld};
 
 use crate::error::{Diagnostic, MeshError};
@@ -61,8 +62,7 @@ impl TriMesh {
     /// `IndexOutOfBounds`, `OutOfMemory`, and `EmptyMesh` where no vertex or no usable triangle is there.
     pub fn new(positions: Vec<f64>, triangles: Vec<u32>) -> Result<Self, MeshError> {
         let n = positions.len() / 3;
-        validate::check_positions(&positions)?;
-        validate::check_ids(&triangles, n)?;
+        check_arrays(&positions, &triangles)?;
         memory::ensure(validate::bytes(n, triangles.len() / 3))?;
         let checked = validate::check(n, &triangles)?;
         drop(triangles);

@@ -46,6 +46,12 @@ pub(super) fn check(n: usize, triangles: &[u32]) -> Result<Checked, MeshError> {
     Ok(Checked { triangles: kept, repeated_id_triangles, warnings })
 }
 
+/// Fails unless positions and triangles fit together, as a mesh needs it.
+pub(crate) fn check_arrays(positions: &[f64], triangles: &[u32]) -> Result<(), MeshError> {
+    check_positions(positions)?;
+    check_ids(triangles, positions.len() / 3)
+}
+
 /// Fails unless there are three ids for every triangle, all of them below `n`.
 pub(super) fn check_ids(triangles: &[u32], n: usize) -> Result<(), MeshError> {
     if !triangles.len().is_multiple_of(3) {

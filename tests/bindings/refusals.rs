@@ -1,7 +1,7 @@
-//! Wrong options and data, and files.
+//! Wrong options and data.
 
-use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array, Uint32Array};
-use morse_smooth::wasm::{RawSmoother, RawTriMesh, read_field, read_mesh, smooth, write_mesh};
+use js_sys::{Float64Array, Uint32Array};
+use morse_smooth::wasm::{RawSmoother, RawTriMesh, smooth};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -93,34 +93,4 @@ fn wrong_data_is_refused_with_its_ids() {
         (code.as_str(), number(&detail, "expected"), number(&detail, "actual")),
         ("LengthMismatch", 108.0, 107.0)
     );
-}
-
-#[wasm_bindgen_test]
-fn files_go_round() {
-    let mesh = torus();
-    let f = noise(108);
-    let fields = Object::new();
-    Reflect::set(&fields, &JsValue::from_str("height"), &array(&f)).expect("an object");
-    for format in ["'ply', binary: true", "'ply'", "'vtk', binary: true", "'vtk'"] {
-        let options = js(&format!("{{ format: {format} }}"));
-        Reflect::set(&options, &JsValue::from_str("fields"), &fields).expect("an object");
-        let file = write_mesh(&raw(&mesh), &options).ok().expect("a file").unchecked_into();
-        let back: JsValue = read_mesh(&file, &NONE).ok().expect("a mesh").into();
-        assert_eq!(floats(&get(&back, "fields"), "height"), f, "{format}");
-        assert_eq!(Array::from(&get(&back, "warnings")).length(), 0, "{format}");
-        assert!(get(&back, "mesh").is_object() && get(&back, "format").is_string());
-    }
-    let column = Uint8Array::from(&b"1.5\n-2\n3e1\n"[..]);
-    assert_eq!(
-        read_field(&column, &NONE).ok().expect("a column").unchecked_into::<Float64Array>().to_vec(),
-        [1.5, -2.0, 30.0]
-    );
-    assert_eq!(thrown(read_mesh(&Uint8Array::new_with_length(0), &NONE)).0, "EmptyFile");
-    assert_eq!(thrown(read_mesh(&column, &js("{ format: 'doc' }"))).0, "InvalidOption");
-    assert_eq!(thrown(read_mesh(&column, &js("{ filename: 'a.ply' }"))).0, "UnknownOption");
-    assert_eq!(thrown(write_mesh(&raw(&mesh), &NONE)).0, "InvalidOption");
-    assert_eq!(thrown(write_mesh(&raw(&mesh), &js("{ format: 'ply', fields: { a: [1, 2] } }"))).0, "InvalidOption");
-    let short = js("{ format: 'ply', fields: { a: new Float64Array(3) } }");
-    assert_eq!(thrown(write_mesh(&raw(&mesh), &short)).0, "LengthMismatch");
-    assert_eq!(thrown(read_field(&column, &js("{ column: -1 }"))).0, "InvalidOption");
 }

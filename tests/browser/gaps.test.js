@@ -1,6 +1,7 @@
 // Fields with gaps on the page: grey where there is no value, everything else as on the part that has values, holes left or filled.
 import { describe, expect, test } from 'vitest';
-import { readMesh, Smoother } from 'morse-smooth';
+import { Smoother } from 'morse-smooth';
+import { meshOfFile } from '../js/mesh-of-file.js';
 import { openTorus, page, torus } from './opened.js';
 import { countsOf } from './torus.js';
 
@@ -113,7 +114,7 @@ describe('gaps in a field', () => {
       const [download] = await Promise.all([page.page.waitForEvent('download'), page.at('save').click()]);
       const chunks = [];
       for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-      const { mesh, fields } = readMesh(Buffer.concat(chunks));
+      const { mesh, fields } = meshOfFile(Buffer.concat(chunks));
       mesh.free();
       const [before, after] = Object.values(fields);
       expect(before).toEqual(values);

@@ -3,7 +3,7 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
-import { readMesh } from 'morse-smooth';
+import { meshOfFile } from '../js/mesh-of-file.js';
 import { startBrowser } from './driver.js';
 
 const inRoot = (path) => fileURLToPath(new URL(`../../${path}`, import.meta.url));
@@ -240,7 +240,7 @@ describe('controls', () => {
     await openTorus();
     const [download] = await Promise.all([page.page.waitForEvent('download'), page.at('save').click()]);
     expect(download.suggestedFilename()).toBe('torus_irregular_tikhonov.ply');
-    const { mesh, fields } = readMesh(readFileSync(await download.path()));
+    const { mesh, fields } = meshOfFile(readFileSync(await download.path()));
     expect(Object.keys(fields)).toEqual(['noisy', 'noisy_tikhonov']);
     const { minima, maxima, saddles } = mesh.criticalPoints(fields.noisy_tikhonov).counts;
     expect([minima, maxima, saddles]).toEqual(await page.counts('after'));
@@ -271,7 +271,7 @@ describe('files', () => {
 
   test('a dropped field is added to the mesh, one of the wrong length is refused with both numbers', async () => {
     await openTorus();
-    const { mesh, fields } = readMesh(example('torus_irregular.ply'));
+    const { mesh, fields } = meshOfFile(example('torus_irregular.ply'));
     mesh.free();
     const negated = Array.from(fields.noisy, (value) => -value).join('\n');
     expect(await page.after(() => page.drop('negated.txt', Buffer.from(negated)))).toBe('ready');

@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
-import { readMesh } from 'morse-smooth';
+import { meshOfFile } from '../js/mesh-of-file.js';
 import { startBrowser } from './driver.js';
 
 const TORUS = readFileSync(fileURLToPath(new URL('../../www/public/examples/torus_irregular.ply', import.meta.url)));
@@ -19,7 +19,7 @@ let range;
 
 beforeAll(async () => {
   browser = await startBrowser();
-  const file = readMesh(TORUS);
+  const file = meshOfFile(TORUS);
   mesh = file.mesh;
   noisy = file.fields.noisy;
   pairs = mesh.persistence(noisy);
@@ -259,7 +259,7 @@ describe('simplifying', () => {
     expect(await page.text('save')).toContain('simplified');
     const [download] = await Promise.all([page.page.waitForEvent('download'), page.at('save').click()]);
     expect(download.suggestedFilename()).toBe('torus_irregular_simplified.ply');
-    const saved = readMesh(readFileSync(await download.path()));
+    const saved = meshOfFile(readFileSync(await download.path()));
     saved.mesh.free();
     expect(countsOf(saved.fields.noisy_simplified)).toEqual(await page.counts('after'));
   });
@@ -301,7 +301,7 @@ describe('where some extrema cannot be avoided', () => {
     expect(await page.at('read-unavoidable').count()).toBe(0);
     await page.at('tab-plots').click();
     expect(await type('persistence-number', 0.5)).toBe('ready');
-    const { mesh } = readMesh(Buffer.from(off), { format: 'off' });
+    const { mesh } = meshOfFile(Buffer.from(off), { format: 'off' });
     const values = mesh.positions().filter((_, k) => k % 3 === 0);
     const { values: simple, unavoidable } = mesh.simplify(values, { threshold: 0.5 });
     expect(unavoidable).toHaveLength(1);

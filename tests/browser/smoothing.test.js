@@ -2,7 +2,7 @@
 // says of the same file in Node.
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
-import { readMesh } from 'morse-smooth';
+import { meshOfFile } from '../js/mesh-of-file.js';
 import { openTorus, page, torus } from './opened.js';
 import { countsOf, expectReport, number, PERSISTENT } from './torus.js';
 
@@ -40,7 +40,7 @@ describe('methods', () => {
     }
     const [download] = await Promise.all([page.page.waitForEvent('download'), page.at('save').click()]);
     expect(download.suggestedFilename()).toBe(`torus_irregular_${suffix}.ply`);
-    const saved = readMesh(readFileSync(await download.path()));
+    const saved = meshOfFile(readFileSync(await download.path()));
     saved.mesh.free();
     expect(saved.fields[`noisy_${suffix}`]).toEqual(expected.values);
   }

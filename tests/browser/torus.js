@@ -2,7 +2,8 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect } from 'vitest';
-import { readMesh, Smoother } from 'morse-smooth';
+import { Smoother } from 'morse-smooth';
+import { meshOfFile } from '../js/mesh-of-file.js';
 
 const FILE = fileURLToPath(new URL('../../www/public/examples/torus_irregular.ply', import.meta.url));
 
@@ -10,7 +11,7 @@ const FILE = fileURLToPath(new URL('../../www/public/examples/torus_irregular.pl
 export const PERSISTENT = { from: 'persistence', threshold: 0.1 };
 
 export function readTorus() {
-  const { mesh, fields } = readMesh(readFileSync(FILE));
+  const { mesh, fields } = meshOfFile(readFileSync(FILE));
   const { noisy } = fields;
   const [positions, triangles] = [mesh.positions(), mesh.triangles()];
   const sides = Array.from(triangles, (a, k) => {

@@ -5,7 +5,7 @@ use std::time::Instant;
 use morse_smooth::error::ParseError;
 use morse_smooth::io::{
     Column, FieldFormat, FieldReadOptions, MeshData, MeshFormat, ReadOptions, WriteOptions, read_field, read_mesh,
-    write_mesh,
+    read_table, write_mesh,
 };
 use proptest::prelude::*;
 
@@ -253,6 +253,10 @@ fn read_every_way(bytes: &[u8]) {
     for format in [None, Some(FieldFormat::Txt), Some(FieldFormat::Csv)] {
         for column in [None, Some(Column::Number(1)), Some(Column::Name("a".to_owned()))] {
             let _ = read_field(bytes, &FieldReadOptions { format, column });
+        }
+        if let Ok(table) = read_table(bytes, format) {
+            let rows = table.columns[0].1.len();
+            assert!(rows > 0 && table.columns.iter().all(|(_, values)| values.len() == rows));
         }
     }
 }

@@ -26,6 +26,7 @@ mod intrinsic;
 mod intrinsic_properties;
 mod io_malformed;
 mod io_read;
+mod io_tables;
 mod io_write;
 mod iterative;
 mod layering;

@@ -1,11 +1,12 @@
-import init, { TriMesh, readField, readMesh, writeMesh } from 'morse-smooth';
+import initCore, { TriMesh } from 'morse-smooth';
+import init, { formats, readField, readMesh, writeMesh } from 'morse-smooth/files';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { expectError } from './errors.js';
+import { arraysOf, meshOfFile } from './mesh-of-file.js';
 import { random, square, tetrahedron, text } from './meshes.js';
 
-beforeAll(() => init());
+beforeAll(() => Promise.all([init(), initCore()]));
 
-const make = ({ positions, triangles }) => new TriMesh(positions, triangles);
 const OFF = 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n';
 const PLY = (faces = '4 0 1 2 3') => `ply
 format ascii 1.0
@@ -26,7 +27,12 @@ ${faces}
 
 describe('reading', () => {
   it('OFF, recognised by its content', () => {
-    const { mesh, fields, format, warnings } = readMesh(text(OFF));
+    const file = readMesh(text(OFF));
+    expect(Object.keys(file)).toEqual(['positions', 'triangles', 'fields', 'vertexMap', 'format', 'warnings']);
+    expect(file.positions).toEqual(Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0));
+    expect(file.triangles).toEqual(Uint32Array.of(0, 1, 2, 0, 2, 3));
+    expect(file.vertexMap).toBeNull();
+    const { mesh, fields, format, warnings } = meshOfFile(text(OFF));
     expect(format).toBe('off');
     expect(fields).toEqual({});
     expect(warnings).toEqual([]);
@@ -38,14 +44,14 @@ describe('reading', () => {
   it('OBJ, recognised by its name or by option', () => {
     const bytes = text('# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n');
     for (const options of [{ format: 'obj' }, { fileName: 'C:\\meshes\\Square.OBJ' }, undefined]) {
-      const { mesh, format } = readMesh(bytes, options);
+      const { mesh, format } = meshOfFile(bytes, options);
       expect(format).toBe('obj');
       expect([mesh.vertexCount, mesh.triangleCount, mesh.area]).toEqual([4, 2, 1]);
     }
   });
 
   it('PLY with a field, in the precision of its text, and a polygon', () => {
-    const { mesh, fields, format } = readMesh(text(PLY()));
+    const { mesh, fields, format } = meshOfFile(text(PLY()));
     expect(format).toBe('ply');
     expect(mesh.triangleCount).toBe(2);
     expect(Object.keys(fields)).toEqual(['heat']);
@@ -54,8 +60,8 @@ describe('reading', () => {
 
   it('a Node Buffer or a part of a larger array', () => {
     const whole = text(`xxxx${OFF}yyyy`);
-    expect(readMesh(whole.subarray(4, 4 + OFF.length)).mesh.vertexCount).toBe(4);
-    if (typeof Buffer !== 'undefined') expect(readMesh(Buffer.from(OFF)).mesh.vertexCount).toBe(4);
+    expect(meshOfFile(whole.subarray(4, 4 + OFF.length)).mesh.vertexCount).toBe(4);
+    if (typeof Buffer !== 'undefined') expect(meshOfFile(Buffer.from(OFF)).mesh.vertexCount).toBe(4);
   });
 
   it('a field: numbers by line, or a column of a table', () => {
@@ -63,6 +69,10 @@ describe('reading', () => {
     const table = text('id,heat,cold\n0,1.5,9\n1,2.5,8\n');
     expect([...readField(table, { column: 'heat' })]).toEqual([1.5, 2.5]);
     expect([...readField(table, { format: 'csv', column: 2 })]).toEqual([9, 8]);
+    // Without a separator only the name tells that each line is a row.
+    expect([...readField(text('1\n2\n'), { fileName: 'heat.CSV', column: 0 })]).toEqual([1, 2]);
+    expectError(() => readField(text('1 2\n3 4\n'), { fileName: 'heat.csv' }), 'InvalidNumber', { line: 2 });
+    expect([...readField(text('1 2\n3 4\n'), { fileName: 'heat.txt' })]).toEqual([1, 2, 3, 4]);
   });
 
   it('a field with gaps, which are NaN; what is infinite is refused', () => {
@@ -76,7 +86,7 @@ describe('writing', () => {
   const shape = square(3);
   const positions = shape.positions.map((x, k) => x / 3 + (k % 3 === 2 ? Math.PI : 0));
   const heat = Array.from({ length: 16 }, random(1));
-  const mesh = () => new TriMesh(positions, shape.triangles);
+  const mesh = { positions, triangles: shape.triangles };
 
   it.each([
     ['off', false, false],
@@ -87,12 +97,12 @@ describe('writing', () => {
     ['vtk', true, true],
   ])('%s, binary %s, gives back what went in, to the last bit', (format, binary, takesFields) => {
     const options = takesFields ? { format, binary, fields: { heat, cold: Float32Array.from(heat) } } : { format };
-    const bytes = writeMesh(mesh(), options);
+    const bytes = writeMesh(mesh, options);
     expect(bytes).toBeInstanceOf(Uint8Array);
     const back = readMesh(bytes, { fileName: `mesh.${format}` });
     expect(back.format).toBe(format);
-    expect([...back.mesh.positions()]).toEqual(positions);
-    expect([...back.mesh.triangles()]).toEqual([...mesh().triangles()]);
+    expect([...back.positions]).toEqual(positions);
+    expect([...back.triangles]).toEqual(shape.triangles);
     if (takesFields) {
       expect([...back.fields.heat]).toEqual(heat);
       expect([...back.fields.cold]).toEqual([...Float32Array.from(heat)]);
@@ -100,21 +110,18 @@ describe('writing', () => {
   });
 
   it('values that are missing, where that is asked for', () => {
-    const mesh = make(square(3));
-    const fields = { f: Float64Array.from({ length: mesh.vertexCount }, (_, v) => (v === 2 ? NaN : v)) };
+    const fields = { f: Float64Array.from({ length: 16 }, (_, v) => (v === 2 ? NaN : v)) };
     for (const format of ['ply', 'vtk'])
       for (const binary of [false, true]) {
         expectError(() => writeMesh(mesh, { format, fields, binary }), 'NonFiniteValue', { vertex: 2 });
         const read = readMesh(writeMesh(mesh, { format, fields, binary, missing: 'omit' }));
         expect(read.fields).toEqual(fields);
-        read.mesh.free();
       }
     expectError(() => writeMesh(mesh, { format: 'ply', missing: 'fill' }), 'InapplicableOption', { option: 'missing' });
-    mesh.free();
   });
 
   it('refuses what does not fit', () => {
-    const write = (options) => () => writeMesh(mesh(), options);
+    const write = (options) => () => writeMesh(mesh, options);
     expectError(write(), 'InvalidOption', { option: 'format' });
     expectError(write({ format: 'xyz' }), 'InvalidOption', { option: 'format' });
     expectError(write({ format: 'stl' }), 'UnsupportedFormat', { format: 'stl' });
@@ -125,10 +132,69 @@ describe('writing', () => {
     expectError(write({ format: 'ply', fields: { heat: 'x' } }), 'InvalidArgument', { argument: 'fields.heat' });
     expectError(write({ format: 'ply', fields: { heat: [1] } }), 'LengthMismatch', { expected: 16, actual: 1 });
     expectError(() => writeMesh({}, { format: 'ply' }), 'InvalidArgument', { argument: 'mesh' });
-    const freed = mesh();
+    const freed = new TriMesh(positions, shape.triangles);
+    // Its arrays are asked for by methods.
+    expectError(() => writeMesh(freed, { format: 'ply' }), 'InvalidArgument', { argument: 'mesh' });
     freed.free();
-    expectError(() => writeMesh(freed, { format: 'ply' }), 'UseAfterFree');
+    expectError(() => writeMesh(arraysOf(freed), { format: 'ply' }), 'UseAfterFree');
     expect(write({ format: 'ply' })().length).toBeGreaterThan(100);
+  });
+});
+
+describe('writing takes plain arrays', () => {
+  const { positions, triangles } = tetrahedron();
+  const write = (mesh, options) => writeMesh(mesh, { format: 'ply', binary: true, ...options });
+
+  it('of every kind, and what reading gave', () => {
+    const bytes = write({ positions, triangles });
+    for (const Triangles of [Uint8Array, Uint16Array, Uint32Array, Int16Array, Int32Array])
+      expect(write({ positions, triangles: Triangles.from(triangles) })).toEqual(bytes);
+    for (const Positions of [Float64Array, Float32Array, Int8Array])
+      expect(write({ positions: Positions.from(positions), triangles })).toEqual(bytes);
+    const mesh = new TriMesh(positions, triangles);
+    expect(write(arraysOf(mesh))).toEqual(bytes);
+    mesh.free();
+    expect(write(readMesh(bytes))).toEqual(bytes);
+  });
+
+  it('that make a mesh: what does not is refused with the ids of the trouble', () => {
+    const refused = (changes, code, detail) =>
+      expectError(() => write({ positions, triangles, ...changes }), code, detail);
+    refused({ positions: 'x' }, 'InvalidArgument', { argument: 'positions' });
+    refused({ positions: [...positions.slice(1), '1'] }, 'InvalidArgument', { argument: 'positions', index: 11 });
+    refused({ positions: positions.slice(1) }, 'PositionsNotTriples', { length: 11 });
+    refused({ positions: positions.with(7, NaN) }, 'NonFinitePosition', { vertex: 2 });
+    refused({ positions: positions.with(7, -Infinity) }, 'NonFinitePosition', { vertex: 2 });
+    refused({ triangles: new Float64Array(12) }, 'InvalidArgument', { argument: 'triangles' });
+    refused({ triangles: new BigInt64Array(12) }, 'InvalidArgument', { argument: 'triangles' });
+    refused({ triangles: triangles.slice(1) }, 'TrianglesNotTriples', { length: 11 });
+    for (const index of [4, -1, 2 ** 32 - 1, 2 ** 33, 1.5])
+      refused({ triangles: triangles.with(5, index) }, 'IndexOutOfBounds', { triangle: 1, index, vertices: 4 });
+    refused({ positions: [], triangles: [] }, 'EmptyMesh', { vertices: 0, triangles: 0 });
+    refused({ triangles: [] }, 'EmptyMesh', { vertices: 4, triangles: 0 });
+    for (const mesh of [undefined, null, 5, [], positions, { positions }, { triangles }])
+      expectError(() => write(mesh), 'InvalidArgument', { argument: 'mesh' });
+    expect(write({ positions, triangles }).length).toBeGreaterThan(100);
+  });
+});
+
+describe('the list of formats', () => {
+  it('says what there is', () => {
+    for (const { name, extensions, reads, writes, description } of formats()) {
+      expect(extensions).toContain(name);
+      expect(reads).toBe(true);
+      expect(description.length, name).toBeGreaterThan(10);
+      const write = () => writeMesh(tetrahedron(), { format: name });
+      if (writes) expect(readMesh(write(), { fileName: `mesh.${extensions[0]}` }).format).toBe(name);
+      else expectError(write, 'InvalidOption', { option: 'format' });
+    }
+    expect(formats().map(({ name }) => name)).toEqual(['obj', 'off', 'ply', 'vtk', 'csv', 'txt']);
+  });
+
+  it('is the caller’s own', () => {
+    formats()[0].extensions.push('x');
+    formats()[0].name = 'x';
+    expect(formats()[0]).toMatchObject({ name: 'obj', extensions: ['obj'] });
   });
 });
 
@@ -148,22 +214,22 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
     ['a position that is not a number', OFF.replace('1 1 0', '1 nan 0'), undefined, 'NonFinitePosition', { vertex: 2 }],
     ['no faces', 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n', undefined, 'MissingElement', {}],
   ])('%s', (_, content, options, code, detail) => {
-    expectError(() => readMesh(text(content), options), code, detail);
-    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+    expectError(() => meshOfFile(text(content), options), code, detail);
+    expect(meshOfFile(text(OFF)).mesh.vertexCount).toBe(4);
   });
 
   it('a header that promises 4e9 vertices', () => {
     expectError(() => readMesh(binaryHeader(4_000_000_000)), 'Truncated', { expected: 48_000_000_000, available: 0 });
     expectError(() => readMesh(text('OFF\n4000000000 1 0\n0 0 0\n')), 'Truncated', { available: 6 });
-    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+    expect(meshOfFile(text(OFF)).mesh.vertexCount).toBe(4);
   });
 
   it('random bytes, and files with bytes changed or lost: an error with a code or a sound mesh', () => {
     const next = random(99);
     const byte = () => Math.floor(256 * next());
     const good = [OFF, PLY()].map(text);
-    good.push(writeMesh(make(tetrahedron()), { format: 'ply', binary: true, fields: { f: [1, 2, 3, 4] } }));
-    good.push(writeMesh(make(tetrahedron()), { format: 'vtk', binary: true, fields: { f: [1, 2, 3, 4] } }));
+    good.push(writeMesh(tetrahedron(), { format: 'ply', binary: true, fields: { f: [1, 2, 3, 4] } }));
+    good.push(writeMesh(tetrahedron(), { format: 'vtk', binary: true, fields: { f: [1, 2, 3, 4] } }));
     const codes = new Set();
     for (let round = 0; round < 2000; round++) {
       let bytes = good[round % good.length].slice();
@@ -171,7 +237,7 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
       else if (round % 3 === 0) bytes = bytes.slice(0, Math.floor(bytes.length * next()));
       else for (let k = 0; k < 3; k++) bytes[Math.floor(bytes.length * next())] = byte();
       try {
-        const { mesh, fields } = readMesh(bytes, {
+        const { mesh, fields } = meshOfFile(bytes, {
           format: round % 2 ? undefined : ['off', 'ply', 'obj', 'vtk'][round % 4],
         });
         expect([...mesh.positions()].every(Number.isFinite)).toBe(true);
@@ -185,7 +251,7 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
     }
     expect(codes).not.toContain('InternalError');
     expect(codes.size).toBeGreaterThan(3);
-    expect(readMesh(text(OFF)).mesh.vertexCount).toBe(4);
+    expect(meshOfFile(text(OFF)).mesh.vertexCount).toBe(4);
   });
 
   it('arguments and options of readMesh', () => {
@@ -197,11 +263,11 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
     expectError(() => readMesh(text(OFF), { filename: 'x.off' }), 'UnknownOption', { option: 'filename' });
     expectError(() => readMesh(text(OFF), { fileName: 5 }), 'InvalidOption', { option: 'fileName' });
     expectError(() => readMesh(text(OFF), 'off'), 'InvalidArgument', { argument: 'options' });
-    expect(readMesh(text(OFF), { format: undefined, weld: true }).mesh.vertexCount).toBe(4);
+    expect(meshOfFile(text(OFF), { format: undefined, weld: true }).mesh.vertexCount).toBe(4);
   });
 
   it('no field name, whatever it means to JavaScript', () => {
-    const { mesh } = readMesh(text(OFF));
+    const mesh = readMesh(text(OFF));
     for (const name of ['__proto__', 'constructor', 'length']) {
       const fields = Object.fromEntries([[name, [1, 2, 3, 4]]]);
       const read = readMesh(writeMesh(mesh, { format: 'ply', fields })).fields;
@@ -211,6 +277,8 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
   });
 
   it('fields', () => {
+    expectError(() => readField(text('1\n'), { filename: 'x.csv' }), 'UnknownOption', { option: 'filename' });
+    expectError(() => readField(text('1\n'), { fileName: 5 }), 'InvalidOption', { option: 'fileName' });
     expectError(() => readField(text('')), 'EmptyFile');
     expectError(() => readField(text('1\ntwo\n3\n')), 'InvalidNumber', { line: 2 });
     expectError(() => readField(text('a,b\n1,2\n'), { column: 'c' }), 'UnknownColumn', { column: 'c' });

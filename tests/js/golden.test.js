@@ -1,5 +1,5 @@
 // The golden pictures, drawn in WebAssembly: the same files that tests/integration/golden compares with what is drawn natively.
-import initCore, { readMesh } from 'morse-smooth';
+import initFiles, { readMesh } from 'morse-smooth/files';
 import init, { sheet, snapshot } from 'morse-smooth/snapshot';
 import { beforeAll, expect, it } from 'vitest';
 import cases from '../golden/cases.json';
@@ -7,16 +7,15 @@ import cases from '../golden/cases.json';
 const goldens = import.meta.glob('../golden/*.png', { query: '?inline', eager: true, import: 'default' });
 const meshes = import.meta.glob('../golden/*.ply', { query: '?raw', eager: true, import: 'default' });
 
-beforeAll(() => Promise.all([init(), initCore()]));
+beforeAll(() => Promise.all([init(), initFiles()]));
 
 /** The bytes of a data URL. */
 const bytesOf = (url) => Uint8Array.from(atob(url.slice(url.indexOf(',') + 1)), (letter) => letter.charCodeAt(0));
 
 it.each(cases)('$name: $shows', ({ name, mesh: meshName, fields: names, options }) => {
-  const { mesh, fields } = readMesh(new TextEncoder().encode(meshes[`../golden/${meshName}.ply`]));
+  const { positions, triangles, fields } = readMesh(new TextEncoder().encode(meshes[`../golden/${meshName}.ply`]));
   const draw = names.length === 2 ? sheet : snapshot;
-  const png = draw(mesh.positions(), mesh.triangles(), ...names.map((field) => fields[field]), options);
-  mesh.free();
+  const png = draw(positions, triangles, ...names.map((field) => fields[field]), options);
   const golden = goldens[`../golden/${name}.png`];
   expect(golden, `tests/golden/${name}.png`).toMatch(/^data:image\/png;base64,/);
   // What differs, `cargo test --features render golden` shows, if it differs natively, too.

@@ -1,7 +1,7 @@
-import init, { MorseSmoothError, TriMesh, readField, readMesh, smooth, version } from 'morse-smooth';
+import init, { MorseSmoothError, TriMesh, smooth, version } from 'morse-smooth';
 import { describe, expect, it } from 'vitest';
 import { expectError, expectRejection } from './errors.js';
-import { tetrahedron, text } from './meshes.js';
+import { tetrahedron } from './meshes.js';
 
 const inNode = typeof process === 'object' && process.versions?.node !== undefined;
 const usable = () => {
@@ -23,8 +23,6 @@ describe.skipIf(inNode)('in a browser', () => {
   it('refuses calls before init', () => {
     const { positions, triangles } = tetrahedron();
     expectError(() => new TriMesh(positions, triangles), 'NotInitialized');
-    expectError(() => readMesh(text('OFF')), 'NotInitialized');
-    expectError(() => readField(text('1')), 'NotInitialized');
     expectError(() => smooth({}, [], { epsilon: 1 }), 'NotInitialized');
   });
 
@@ -34,7 +32,7 @@ describe.skipIf(inNode)('in a browser', () => {
     await expectRejection(init({ wasm: Uint8Array.of(1, 2, 3) }), 'LoadFailed');
     const emptyModule = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
     await expectRejection(init({ wasm: emptyModule }), 'LoadFailed');
-    expectError(() => readField(text('1')), 'NotInitialized');
+    expectError(() => smooth({}, [], { epsilon: 1 }), 'NotInitialized');
   });
 
   it('loads once', async () => {

@@ -1,7 +1,7 @@
 // A module whose memory cannot grow beyond 64 megabytes: what does not fit is an error, and everything goes on.
 import { beforeAll, describe, expect, it } from 'vitest';
 // The entry for browsers, also in Node: it takes the code that it is given.
-import init, { Smoother, TriMesh, readField, readMesh, smooth, writeMesh } from 'morse-smooth/inline';
+import init, { Smoother, TriMesh, smooth } from 'morse-smooth/inline';
 import { random, square, tetrahedron } from './meshes.js';
 import { same } from './same.js';
 import { wasmBytes, withPages } from './wasm-bytes.js';
@@ -41,19 +41,6 @@ const middle = typed(square(40));
 const field = Float64Array.from({ length: 41 * 41 }, random(3));
 const colors = Float64Array.from({ length: 3 * 41 * 41 }, random(4));
 const constraints = { from: 'criticalPoints', delta: 0.4 };
-const OFF = new TextEncoder().encode(
-  `OFF\n${middle.positions.length / 3} ${middle.triangles.length / 3} 0\n` +
-    Array.from({ length: middle.positions.length / 3 }, (_, v) =>
-      middle.positions.subarray(3 * v, 3 * v + 3).join(' '),
-    ).join('\n') +
-    '\n' +
-    Array.from(
-      { length: middle.triangles.length / 3 },
-      (_, t) => `3 ${middle.triangles.subarray(3 * t, 3 * t + 3).join(' ')}`,
-    ).join('\n') +
-    '\n',
-);
-const NUMBERS = new TextEncoder().encode([...field].join('\n'));
 
 /** Everything there is, by name: what it gives for a mesh. */
 const calls = {
@@ -89,13 +76,6 @@ const calls = {
   laplacian: (mesh) => mesh.laplacian(),
   'laplacian, intrinsic': (mesh) => mesh.laplacian({ weights: 'intrinsicDelaunay' }),
   mass: (mesh) => mesh.mass(),
-  readMesh: () => {
-    const { mesh, format } = readMesh(OFF);
-    return freed(mesh, (mesh) => [mesh.triangles(), format]);
-  },
-  readField: () => readField(NUMBERS),
-  writeMesh: (mesh) => writeMesh(mesh, { format: 'ply', fields: { field } }),
-  'writeMesh, binary': (mesh) => writeMesh(mesh, { format: 'vtk', binary: true }),
   'new Smoother': (mesh) => freed(new Smoother(mesh), () => 0),
   tikhonov: (mesh) => freed(new Smoother(mesh), (smoother) => smoother.tikhonov(colors, { epsilon: 0.1, channels: 3 })),
   'tikhonov, cg': (mesh) => smooth(mesh, field, { epsilon: 0.1, solver: 'cg' }),
@@ -171,8 +151,6 @@ describe('memory that runs out', () => {
     const large = typed(square(700));
     for (let k = 0; k < 50; k++) expect(shortage(() => make(large).free())).not.toBeNull();
     expect(freed(make(tetrahedron()), (mesh) => mesh.vertexCount)).toBe(4);
-    expect(shortage(() => readMesh(new Uint8Array(80 << 20)))).not.toBeNull();
-    expect(shortage(() => readField(new Uint8Array(80 << 20)))).not.toBeNull();
     for (const call of Object.values(calls)) freed(make(middle), call);
   });
 });

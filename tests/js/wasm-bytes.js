@@ -10,6 +10,7 @@ export async function wasmBytes(name = 'morse_smooth_bg.wasm') {
   }
   const urls = {
     'morse_smooth_bg.wasm': () => import('morse-smooth/morse_smooth_bg.wasm?url'),
+    'morse_smooth_files_bg.wasm': () => import('morse-smooth/morse_smooth_files_bg.wasm?url'),
     'morse_smooth_snapshot_bg.wasm': () => import('morse-smooth/morse_smooth_snapshot_bg.wasm?url'),
   };
   const { default: url } = await urls[name]();

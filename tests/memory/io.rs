@@ -1,6 +1,8 @@
 //! Reading, loading and writing files.
 
-use morse_smooth::io::{FieldReadOptions, MeshFormat, ReadOptions, WriteOptions, read_field, read_mesh, write_mesh};
+use morse_smooth::io::{
+    FieldReadOptions, MeshFormat, ReadOptions, WriteOptions, read_field, read_mesh, read_table, write_mesh,
+};
 use morse_smooth::load::{LoadOptions, load};
 use morse_smooth::mesh::WeldOptions;
 
@@ -73,5 +75,9 @@ fn field_files() {
     let table: String = numbers.iter().map(|x| format!("a,{x}\n")).collect();
     check("a table", 1.2, || read_field(table.as_bytes(), &FieldReadOptions::default()).unwrap());
     let wide = format!("{0}\n{0}\n", numbers.join(","));
+    check("all columns", 1.2, || read_table(table.as_bytes(), None).unwrap());
+    let blanks = table.replace(',', " ");
+    check("all columns between blanks", 1.2, || read_table(blanks.as_bytes(), None).unwrap());
     check("a table of many columns", 2.0, || read_field(wide.as_bytes(), &FieldReadOptions::default()).unwrap());
+    check("all of many columns", 4.0, || read_table(wide.as_bytes(), None).unwrap());
 }

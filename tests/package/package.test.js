@@ -3,6 +3,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
+import { modules } from '../../scripts/lib/modules.mjs';
 import { npm } from '../../scripts/lib/run.mjs';
 import { openPage, serveFolder } from './browser.js';
 
@@ -32,6 +33,17 @@ const drawn = {
   code: 'UseAfterFree',
 };
 
+/** What read.js finds: the square of use.js, with its field. */
+const read = {
+  format: 'vtk',
+  positions: [0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0],
+  triangles: [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1],
+  heat: [5, 1, 2, 3, 4],
+  column: [2, 4],
+  formats: 6,
+  code: 'UnknownColumn',
+};
+
 describe('the package', () => {
   it('holds what users need and nothing else', () => {
     expect(inject('packed')).toEqual([
@@ -42,12 +54,18 @@ describe('the package', () => {
       'dist/core.js',
       'dist/error.cjs',
       'dist/error.js',
+      'dist/files-node.cjs',
+      'dist/files-node.mjs',
+      'dist/files.d.cts',
+      'dist/files.d.ts',
+      'dist/files.js',
       'dist/index.d.cts',
       'dist/index.d.ts',
       'dist/index.js',
       'dist/inline.d.ts',
       'dist/inline.js',
       'dist/morse_smooth_bg.wasm',
+      'dist/morse_smooth_files_bg.wasm',
       'dist/morse_smooth_snapshot_bg.wasm',
       'dist/node.cjs',
       'dist/node.mjs',
@@ -60,6 +78,23 @@ describe('the package', () => {
       'package.json',
     ]);
   });
+
+  it('says of each module what the table of modules says', () => {
+    const { exports } = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
+    const files = { './*.wasm': './dist/*.wasm', './package.json': './package.json' };
+    expect(exports).toEqual(Object.assign({}, ...Object.values(modules).map((module) => module.exports), files));
+  });
+
+  it.each(Object.values(modules).map(({ entry }) => entry))(
+    'gives the same names to import and require: %s',
+    (entry) => {
+      const script = `import(${JSON.stringify(entry)}).then((names) => console.log(JSON.stringify(
+      [names, require(${JSON.stringify(entry)})].map((names) => Object.keys(names).sort()))))`;
+      const [imported, required] = run('--input-type=commonjs', '-e', script);
+      expect(imported).toEqual(required);
+      expect(imported).toContain('MorseSmoothError');
+    },
+  );
 
   it('would be published without a warning', () => {
     const [command, parameters] = npm('publish', '--dry-run', '--ignore-scripts', '--tag', 'latest');
@@ -83,7 +118,7 @@ describe('the package', () => {
   });
 
   it('has no Node module, await at the top or eval in what browsers load', () => {
-    for (const name of ['index.js', 'core.js', 'error.js', 'inline.js', 'snapshot.js']) {
+    for (const name of ['index.js', 'core.js', 'error.js', 'files.js', 'inline.js', 'snapshot.js']) {
       const source = readFileSync(join(dist, name), 'utf8');
       expect(source).not.toMatch(/node:|require\(|^await |\beval\(|new Function/m);
     }
@@ -103,22 +138,25 @@ describe('Node', () => {
   });
 
   it('requires it', () => {
-    const names = [
-      'MorseSmoothError',
-      'Smoother',
-      'TriMesh',
-      'default',
-      'readField',
-      'readMesh',
-      'smooth',
-      'version',
-      'writeMesh',
-    ];
+    const names = ['MorseSmoothError', 'Smoother', 'TriMesh', 'default', 'smooth', 'version'];
     expect(run('require.cjs')).toEqual({ ...expected, keys: names });
   });
 
   it('imports the inline entry', () => {
     expect(run('inline.mjs')).toEqual(expected);
+  });
+
+  it('imports the files, whose errors are of the same class', () => {
+    expect(run('files.mjs')).toEqual({ ...read, oneInstance: true, oneError: true });
+  });
+
+  it('requires the files, and reads each module for its own entry only', () => {
+    expect(run('files.cjs')).toEqual({
+      ...read,
+      keys: ['MorseSmoothError', 'default', 'formats', 'readField', 'readMesh', 'readTable', 'writeMesh'],
+      alone: ['morse_smooth_files_bg.wasm'],
+      both: ['morse_smooth_files_bg.wasm', 'morse_smooth_bg.wasm'],
+    });
   });
 
   it('imports the pictures, whose errors are of the same class', () => {
@@ -135,9 +173,10 @@ describe('Node', () => {
   });
 
   it('finds the wasm files and package.json under their own names', () => {
-    const names = ['morse_smooth_bg.wasm', 'morse_smooth_snapshot_bg.wasm', 'package.json'];
+    const wasm = Object.values(modules).map(({ wasm }) => wasm);
+    const names = [...wasm, 'package.json'];
     const script = `console.log(JSON.stringify(${JSON.stringify(names)}.map((x) => require.resolve('morse-smooth/' + x))))`;
-    expect(run('-e', script)).toEqual([join(dist, names[0]), join(dist, names[1]), join(dist, '..', names[2])]);
+    expect(run('-e', script)).toEqual([...wasm.map((name) => join(dist, name)), join(dist, '..', 'package.json')]);
   });
 });
 
@@ -155,6 +194,7 @@ describe('Chromium', () => {
   const throughVite = {
     page: expected,
     inline: expected,
+    file: read,
     picture: drawn,
     oneError: true,
     worker: expected,
@@ -190,7 +230,7 @@ describe('Chromium', () => {
     const server = await serveFolder(installed, headers);
     try {
       const result = await resultOf(`${server.url}/static/index.html`);
-      expect(result).toEqual({ page: expected, picture: drawn });
+      expect(result).toEqual({ page: expected, file: read, picture: drawn });
     } finally {
       await server.close();
     }

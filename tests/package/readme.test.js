@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, expect, it } from 'vitest';
-import { readMesh } from '../../dist/node.mjs';
+import { meshOfFile } from '../js/mesh-of-file.js';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const run = (name, ...more) =>
@@ -61,7 +61,7 @@ it('writes a field that has kept its persistent critical points', () => {
   const path = join(folder, 'kept.ply');
   const kept = /: kept (\d+) of (\d+) critical points\n/.exec(run('keep.mjs', path));
   expect(kept[1]).toBe(kept[2]);
-  const { mesh, fields } = readMesh(readFileSync(path));
+  const { mesh, fields } = meshOfFile(readFileSync(path));
   const [before, after] = Object.values(fields);
   const rule = { from: 'persistence', threshold: 0.1, stars: false };
   const features = mesh.constrainedVertices(before, rule);

@@ -1,14 +1,5 @@
 // Compiled, never run: the whole public API as a user writes it, and what must not compile.
-import init, {
-  MorseSmoothError,
-  Smoother,
-  TriMesh,
-  readField,
-  readMesh,
-  smooth,
-  version,
-  writeMesh,
-} from 'morse-smooth';
+import init, { MorseSmoothError, Smoother, TriMesh, smooth, version } from 'morse-smooth';
 import type * as api from 'morse-smooth';
 import initInline, { TriMesh as InlineTriMesh } from 'morse-smooth/inline';
 
@@ -30,33 +21,8 @@ await init({ url: '/x.wasm' });
 same<typeof version, string>(true);
 same<typeof InlineTriMesh, typeof TriMesh>(true);
 
-// -------------------------------------------------------------------------------------------------------------- files
-const file = readMesh(new Uint8Array(3), { format: 'ply', fileName: 'x.ply', weld: true });
-same<typeof file, api.MeshFile>(true);
-same<api.MeshFile['format'], 'obj' | 'off' | 'ply' | 'vtk'>(true);
-const fields: Record<string, Float64Array> = file.fields;
-for (const { code, message, count, examples } of file.warnings) {
-  same<[typeof code, typeof message, typeof count, typeof examples], [string, string, number, number[]]>(true);
-}
-// @ts-expect-error text is not bytes
-readMesh('OFF');
-// @ts-expect-error not built yet
-readMesh(new Uint8Array(3), { format: 'glb' });
-// @ts-expect-error the option is called fileName
-readMesh(new Uint8Array(3), { filename: 'x.ply' });
-
-const heat: Float64Array = readField(new Uint8Array(3), { format: 'csv', column: 'heat' });
-readField(new Uint8Array(3), { format: 'txt', column: 2 });
-// @ts-expect-error not built yet
-readField(new Uint8Array(3), { format: 'npy' });
-
-const bytes: Uint8Array = writeMesh(file.mesh, { format: 'vtk', binary: true, fields: { heat, cold: [1, 2] } });
-// @ts-expect-error the format has no default
-writeMesh(file.mesh, {});
-// @ts-expect-error not built yet
-writeMesh(file.mesh, { format: 'vtp' });
-
 // --------------------------------------------------------------------------------------------------------------- mesh
+const heat = new Float64Array(3);
 const mesh = new TriMesh(new Float32Array(9), new Uint16Array(3), { weld: false });
 new TriMesh([0, 0, 0, 1, 0, 0, 0, 1, 0] as const, [0, 1, 2] as const);
 new TriMesh(new Float64Array(9), new Uint32Array(3));
@@ -374,18 +340,7 @@ try {
 const remade: Error = new MorseSmoothError('NonFiniteValue', 'the value at vertex 3 is not finite', { vertex: 3 });
 
 export const used = [
-  ...[
-    done,
-    fields,
-    bytes,
-    genus,
-    handles,
-    components,
-    boundaryLoops,
-    orientable,
-    nonManifoldEdges,
-    nonManifoldVertices,
-  ],
+  ...[done, genus, handles, components, boundaryLoops, orientable, nonManifoldEdges, nonManifoldVertices],
   ...[
     isolatedVertices,
     degenerateTriangles,

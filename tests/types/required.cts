@@ -1,5 +1,6 @@
 // The same types from CommonJS.
 import morse = require('morse-smooth');
+import files = require('morse-smooth/files');
 import pictures = require('morse-smooth/snapshot');
 
 const { TriMesh, smooth } = morse;
@@ -14,4 +15,10 @@ const isOurs = (error: unknown): error is morse.MorseSmoothError => error instan
 // @ts-expect-error there is no such option
 pictures.snapshot([], [], [], { colour: true });
 
-export = { values, ready, png, drawable, isOurs };
+const { positions, triangles, fields }: files.MeshFile = files.readMesh(new Uint8Array(3));
+const written: Uint8Array = files.writeMesh({ positions, triangles }, { format: 'off' });
+const readable: Promise<void> = files.default();
+// @ts-expect-error there is no such option
+files.readField(new Uint8Array(3), { colunm: 1 });
+
+export = { values, ready, png, drawable, isOurs, fields, written, readable };

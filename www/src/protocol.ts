@@ -4,7 +4,8 @@
  * The page sends one request at a time and the worker answers each with any number of parts, then `done` or `failed`.
  * Only what changed is sent, so that a δ slider does not resend the mesh.
  */
-import type { CriticalCounts, Diagnostic, Link, MeshFormat, MeshTopology, SmoothReport } from 'morse-smooth';
+import type { CriticalCounts, Diagnostic, Link, MeshTopology, SmoothReport } from 'morse-smooth';
+import type { MeshFormat } from 'morse-smooth/files';
 import type { Camera, Colormap, DrawList, Lines, Solids, Surface } from 'morse-smooth/snapshot';
 import type { Method, Smoothing } from './smoothing/settings';
 

@@ -4,8 +4,9 @@
  * An update recomputes what depends on a changed setting and sends only that. It has two stages, before and after; a stage
  * that fails sends nothing, so that the page goes on with what it had.
  */
-import { writeMesh } from 'morse-smooth';
-import type { MeshFile, PersistencePairs, TriMesh } from 'morse-smooth';
+import type { PersistencePairs, TriMesh } from 'morse-smooth';
+import { writeMesh } from 'morse-smooth/files';
+import type { MeshFile } from 'morse-smooth/files';
 import { Scene } from 'morse-smooth/snapshot';
 import type { Solids } from 'morse-smooth/snapshot';
 import { colorBasins } from './basins';
@@ -60,12 +61,13 @@ export class Session {
   /** Key of the settings behind each thing that the page holds. */
   private readonly sent = new Map<string, string>();
 
-  constructor(file: MeshFile, name: string, onProgress: (fraction: number) => void) {
+  /** The mesh is the one that was made of the file, and freed with the session. */
+  constructor(file: MeshFile, mesh: TriMesh, name: string, onProgress: (fraction: number) => void) {
     this.file = file;
-    this.mesh = file.mesh;
+    this.mesh = mesh;
     this.name = name;
-    this.positions = file.mesh.positions();
-    this.triangles = file.mesh.triangles();
+    this.positions = mesh.positions();
+    this.triangles = mesh.triangles();
     this.scene = new Scene(this.positions, this.triangles);
     this.meanEdge = meanEdgeOf(this.positions, this.triangles);
     this.methods = new Methods(this.mesh, this.meanEdge, onProgress);
@@ -82,7 +84,8 @@ export class Session {
 
   describe(send: Send, chosen: string): void {
     const { vertexCount, edgeCount, triangleCount, topology } = this.mesh;
-    const { format, warnings } = this.file;
+    const { format } = this.file;
+    const warnings = [...this.file.warnings, ...this.mesh.warnings];
     const { name, meanEdge } = this;
     send({
       kind: 'mesh',
@@ -124,12 +127,16 @@ export class Session {
     const label = this.labelOf(settings.field);
     const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!.values, [`${label}_${suffix}`]: smoothed };
-    const bytes = writeMesh(this.mesh, {
-      format: 'ply',
-      fields: plainNames(fields),
-      binary: true,
-      missing: 'omit',
-    });
+    const { positions, triangles } = this;
+    const bytes = writeMesh(
+      { positions, triangles },
+      {
+        format: 'ply',
+        fields: plainNames(fields),
+        binary: true,
+        missing: 'omit',
+      },
+    );
     send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
   }
 

@@ -1,5 +1,6 @@
 /** The page's worker: loads the WebAssembly modules once and answers one request after the other. */
-import init, { readField, readMesh, version } from 'morse-smooth';
+import init, { TriMesh, version } from 'morse-smooth';
+import initFiles, { readField, readMesh } from 'morse-smooth/files';
 import initPictures from 'morse-smooth/snapshot';
 import { failureOf, Refusal } from './failure';
 import type { Part, Reply, Request, Settings } from './protocol';
@@ -34,7 +35,8 @@ const send = (part: Part): void => post({ kind: 'part', part });
  */
 async function open({ file, added, settings, smooth }: Extract<Request, { kind: 'open' }>): Promise<void> {
   const read = readMesh(await bytesOf(file), { fileName: file.name });
-  const opened = new Session(read, file.name, (fraction) => post({ kind: 'progress', fraction }));
+  const mesh = new TriMesh(read.positions, read.triangles);
+  const opened = new Session(read, mesh, file.name, (fraction) => post({ kind: 'progress', fraction }));
   const troubles: unknown[] = [];
   try {
     for (const field of added) opened.addField(field.name, await fieldOf(field));
@@ -86,7 +88,7 @@ async function bytesOf(file: File): Promise<Uint8Array> {
 }
 
 async function fieldOf(file: File): Promise<Float64Array> {
-  return readField(await bytesOf(file), /\.csv$/i.test(file.name) ? { format: 'csv' } : {});
+  return readField(await bytesOf(file), { fileName: file.name });
 }
 
 async function answer(request: Request): Promise<void> {
@@ -106,7 +108,7 @@ async function answer(request: Request): Promise<void> {
 
 async function main(): Promise<void> {
   try {
-    await Promise.all([init(), initPictures()]);
+    await Promise.all([init(), initFiles(), initPictures()]);
   } catch (error) {
     post({ kind: 'failed', failure: failureOf(error), settings: null });
     return;

@@ -1,7 +1,7 @@
 // The entry for browsers and bundlers.
 import { initFrom } from './core.js';
 
-export { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, readField, readMesh, smooth, version, writeMesh } from './core.js';
+export { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, smooth, version } from './core.js';
 
 /** Loads the wasm file that lies beside this one: bundlers find it by this very expression. */
 export default function init(options) {

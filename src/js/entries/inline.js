@@ -2,7 +2,7 @@
 import { initFrom } from './core.js';
 import base64 from './wasm-base64.js';
 
-export { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, readField, readMesh, smooth, version, writeMesh } from './core.js';
+export { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, smooth, version } from './core.js';
 
 /** Takes the wasm module from the script itself: nothing is fetched. */
 export default function init(options) {

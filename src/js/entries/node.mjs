@@ -2,4 +2,4 @@
 import api from './node.cjs';
 
 export default api.default;
-export const { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, readField, readMesh, smooth, version, writeMesh } = api;
+export const { MorseSmoothError, Smoother, SmoothingFamily, TriMesh, smooth, version } = api;

@@ -66,13 +66,10 @@ export class Handle {
   }
 }
 
-/** Lets an object be used as in `using file = readMesh(…)`, where the language has it: `free` is called at the end. */
-export function disposable(object, free) {
-  if (!Symbol.dispose) return object;
-  return Object.defineProperty(object, Symbol.dispose, { value: free, configurable: true, writable: true });
-}
-
-/** The same for all objects of these classes: `using mesh = new TriMesh(…)`. */
+/** Lets objects of these classes be used as in `using mesh = new TriMesh(…)`, where the language has it: `free` is called at the end. */
 export function makeDisposable(...classes) {
-  for (const { prototype } of classes) disposable(prototype, prototype.free);
+  if (!Symbol.dispose) return;
+  for (const { prototype } of classes) {
+    Object.defineProperty(prototype, Symbol.dispose, { value: prototype.free, configurable: true, writable: true });
+  }
 }

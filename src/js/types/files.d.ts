@@ -1,24 +1,56 @@
+/**
+ * Files of meshes, fields and tables: bytes in, plain arrays out, and back. A WebAssembly module of its own, which needs nothing of the
+ * main entry; `new TriMesh(file.positions, file.triangles)` there makes a mesh of what was read.
+ *
+ * @module
+ */
+
+import type { Diagnostic, Ids, InitOptions, Numbers, Weld } from './index.js';
+
+export { MorseSmoothError } from './index.js';
+export type { Diagnostic } from './index.js';
+
+/**
+ * Loads the WebAssembly module of the files, which is another one than that of the package's main entry. In a browser, wait for it
+ * before any other call (otherwise `NotInitialized`); in Node the import has already done it.
+ *
+ * @throws `LoadFailed` where the module cannot be fetched or compiled.
+ */
+export default function init(options?: InitOptions): Promise<void>;
+
+/** What there is of a format. */
+export interface FormatInfo {
+  /** Its name, as the option `format` takes it. */
+  name: string;
+  /** The usual endings of its files, without a dot. */
+  extensions: string[];
+  reads: boolean;
+  writes: boolean;
+  /** One line for people. */
+  description: string;
+}
+
+/** Everything that can be read or written: formats of meshes, then those of fields and tables. */
+export function formats(): FormatInfo[];
+
 /** The names of file formats for meshes. */
 export type MeshFormat = 'obj' | 'off' | 'ply' | 'vtk';
 
-/** Something in the input that was put right or left out. */
-export interface Diagnostic {
-  /** Stable name. */
-  code: string;
-  /** One sentence for people. */
-  message: string;
-  /** How many there are. */
-  count: number;
-  /** Numbers of the first few. */
-  examples: number[];
-}
+/** The names of file formats for fields and tables. */
+export type TableFormat = 'txt' | 'csv';
 
-/** What {@link readMesh} found. `using file = readMesh(…)` frees its mesh at the end. */
-export interface MeshFile extends Disposable {
-  mesh: TriMesh;
-  /** Per-vertex numbers of the file, by their name there. */
+/** What {@link readMesh} found. Nothing has been checked as a mesh: `new TriMesh(…)` of the main entry does that. */
+export interface MeshFile {
+  /** x, y, z of every vertex, one after the other. */
+  positions: Float64Array;
+  /** Three vertices for every triangle, numbered from 0. */
+  triangles: Uint32Array;
+  /** One value per vertex, by name. Missing values are NaN, with a warning. Components of an array `v` are `v_0`, `v_1`, … */
   fields: Record<string, Float64Array>;
+  /** For every vertex of the file the vertex that it became by welding; null where they are the same. */
+  vertexMap: Uint32Array | null;
   format: MeshFormat;
+  /** What was left out or put right. What is to be said of the mesh itself, `TriMesh.warnings` has. */
   warnings: Diagnostic[];
 }
 
@@ -29,7 +61,7 @@ export interface ReadMeshOptions {
   /** Only its ending matters. */
   fileName?: string;
   /**
-   * Whether vertices that lie together become one, as in the constructor of {@link TriMesh}; their values become the mean, with a
+   * Whether vertices that lie together become one, as in the constructor of `TriMesh`; their values become the mean, with a
    * warning (`WeldedValues`) where these differ by more than rounding. Default `false`.
    */
   weld?: Weld;
@@ -39,14 +71,20 @@ export interface ReadMeshOptions {
  * Reads a mesh and the fields that come with it: OBJ, OFF, PLY (text, binary of both byte orders), legacy VTK PolyData (text,
  * binary). Polygons are cut into triangles.
  *
- * @throws the codes for files and for meshes of {@link MorseSmoothError.code}
+ * @throws the codes for files of {@link MorseSmoothError.code}; with `weld` those for meshes, too
  */
 export function readMesh(bytes: Uint8Array, options?: ReadMeshOptions): MeshFile;
 
+/** What {@link readTable} takes. */
+export interface ReadTableOptions {
+  /** The format. Default: told from the content, and `"csv"` where `fileName` ends so. */
+  format?: TableFormat;
+  /** Only its ending matters. */
+  fileName?: string;
+}
+
 /** What {@link readField} takes. */
-export interface ReadFieldOptions {
-  /** The format. Default: told from the content. */
-  format?: 'txt' | 'csv';
+export interface ReadFieldOptions extends ReadTableOptions {
   /** The column of a table: its name in the first line, or its number from 0. Default: the first column of numbers. */
   column?: string | number;
 }
@@ -58,6 +96,31 @@ export interface ReadFieldOptions {
  * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
  */
 export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
+
+/** What {@link readTable} found. */
+export interface TableFile {
+  /**
+   * Every column of numbers by its name in the first line, or by its number from 0 where that line holds numbers. Missing values are
+   * NaN.
+   */
+  columns: Record<string, Float64Array>;
+  warnings: Diagnostic[];
+}
+
+/**
+ * Reads all columns of a table: between commas, semicolons or tabs, or else between blanks. Empty cells and `nan` are missing values.
+ * Columns of text are left out, with a warning.
+ *
+ * @throws `InvalidSyntax` with the `line` for a row with another number of cells than the first; `MissingElement` where there are no
+ * numbers; `EmptyFile`
+ */
+export function readTable(bytes: Uint8Array, options?: ReadTableOptions): TableFile;
+
+/** A mesh to be written: what {@link readMesh} gives, or the arrays of a `TriMesh`. */
+export interface MeshArrays {
+  positions: Numbers;
+  triangles: Ids;
+}
 
 /** What {@link writeMesh} takes. */
 export interface WriteMeshOptions {
@@ -73,5 +136,7 @@ export interface WriteMeshOptions {
 /**
  * Writes a mesh, and fields where the format has room for them, in double precision. In PLY names, blanks become `_`; an empty
  * name becomes `field`, and a name that is there already (in PLY also `x`, `y`, `z`) gets a number.
+ *
+ * @throws the codes for meshes of {@link MorseSmoothError.code}, but for those of areas; `LengthMismatch`, `NonFiniteValue`
  */
-export function writeMesh(mesh: TriMesh, options: WriteMeshOptions): Uint8Array;
+export function writeMesh(mesh: MeshArrays, options: WriteMeshOptions): Uint8Array;

@@ -1,7 +1,8 @@
 /// <reference lib="esnext.disposable" />
 
 /**
- * Critical points, level sets and smoothing of scalar fields on triangle meshes.
+ * Critical points, level sets and smoothing of scalar fields on triangle meshes. Arrays in, arrays out: files are read and written by
+ * `morse-smooth/files`, pictures drawn by `morse-smooth/snapshot`, each a WebAssembly module of its own.
  *
  * A *field* has one number per vertex, in the order of the mesh's vertices. Vertices and triangles are numbered from 0. Lengths
  * are in the units of the positions, values in the units of the field; nothing is rescaled unless a comment says so. Every array
@@ -18,6 +19,18 @@ export type Integers = Int8Array | Uint8Array | Uint8ClampedArray | Int16Array |
 export type Numbers = Float64Array | Float32Array | Integers | readonly number[];
 /** Vertex numbers as they are taken: whole, from 0 to 2³² − 1 (otherwise `IndexOutOfBounds`). */
 export type Ids = Integers | readonly number[];
+
+/** Something in the input that was put right or left out. */
+export interface Diagnostic {
+  /** Stable name. */
+  code: string;
+  /** One sentence for people. */
+  message: string;
+  /** How many there are. */
+  count: number;
+  /** Numbers of the first few. */
+  examples: number[];
+}
 
 /** How far a long call has come. */
 export interface Progress {
@@ -64,8 +77,9 @@ export default function init(options?: InitOptions): Promise<void>;
 /** What {@link init} takes. */
 export interface InitOptions {
   /**
-   * Where the module's file is, or its content: `morse_smooth_bg.wasm`, or `morse_smooth_snapshot_bg.wasm` for
-   * `morse-smooth/snapshot`. Without it the file beside the script is fetched, and with `morse-smooth/inline` nothing is.
+   * Where the module's file is, or its content: `morse_smooth_bg.wasm`, for `morse-smooth/files` `morse_smooth_files_bg.wasm`, for
+   * `morse-smooth/snapshot` `morse_smooth_snapshot_bg.wasm`. Without it the file beside the script is fetched, and with
+   * `morse-smooth/inline` nothing is.
    */
   wasm?: URL | string | Request | Response | BufferSource | WebAssembly.Module;
 }

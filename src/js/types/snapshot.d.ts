@@ -1,6 +1,6 @@
 /**
- * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A second WebAssembly module, which draws the
- * same bytes everywhere.
+ * Pictures of fields on triangle meshes, as PNG files: no graphics card, no window. A WebAssembly module of its own, which draws
+ * the same bytes everywhere.
  *
  * @module
  */

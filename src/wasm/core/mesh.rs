@@ -6,8 +6,8 @@ use wasm_bindgen::prelude::*;
 use super::options::{Constraining, from_rule};
 use super::reports;
 use super::watching::Watching;
-use crate::error::{Error, FieldError, OptionError, OutOfMemory};
-use crate::mesh::{self, TriMesh, WeldOptions};
+use crate::error::{FieldError, OutOfMemory};
+use crate::mesh::{self, TriMesh};
 use crate::operators::{self, LaplacianWeights, MassOptions};
 use crate::smooth::{self, Unconstrained};
 use crate::support::memory;
@@ -16,6 +16,8 @@ use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
 use crate::wasm::shared::record::{Record, read};
+use crate::wasm::shared::warnings::diagnostics;
+use crate::wasm::shared::weld::{from_weld, weld};
 
 /// A mesh in wasm memory.
 #[wasm_bindgen]
@@ -26,7 +28,7 @@ pub struct RawTriMesh {
 
 impl RawTriMesh {
     /// `vertex_map` says what became of vertices that were welded.
-    pub(super) fn wrap(mesh: TriMesh, vertex_map: Option<Vec<u32>>) -> Self {
+    fn wrap(mesh: TriMesh, vertex_map: Option<Vec<u32>>) -> Self {
         Self { mesh, vertex_map }
     }
 
@@ -35,36 +37,11 @@ impl RawTriMesh {
     }
 }
 
-/// Whether and how vertices are welded: true, false or `{ tolerance }`.
-pub(super) fn weld(record: &Record) -> Option<WeldOptions> {
-    let value = record.get("weld")?;
-    match value.as_bool() {
-        Some(welds) => welds.then(WeldOptions::default),
-        None if value.is_object() => record.part("weld", |value| {
-            read("weld", value, |record| WeldOptions { tolerance: record.number("tolerance").unwrap_or_default() })
-        }),
-        None => {
-            record.invalid("weld", "true, false or { tolerance }");
-            None
-        }
-    }
-}
-
 /// The triangles of a soup of so many vertices.
 fn soup(vertices: usize) -> Result<Vec<u32>, OutOfMemory> {
     let mut triangles = memory::with_room(vertices)?;
     triangles.extend(0..vertices as u32);
     Ok(triangles)
-}
-
-/// Says where the option stands that welding refuses.
-pub(super) fn from_weld(error: Error) -> Error {
-    match error {
-        Error::Option(OptionError::InvalidOption { option, expected }) if option == "tolerance" => {
-            OptionError::invalid("weld.tolerance", &expected).into()
-        }
-        other => other,
-    }
 }
 
 fn weights(record: &Record) -> LaplacianWeights {
@@ -140,7 +117,7 @@ impl RawTriMesh {
     }
 
     pub fn warnings(&self) -> Array {
-        reports::diagnostics(self.mesh.warnings())
+        diagnostics(self.mesh.warnings())
     }
 
     pub fn positions(&self) -> Result<JsValue, Thrown> {

@@ -2,7 +2,6 @@
 
 mod critical;
 mod family;
-mod files;
 mod levels;
 mod mesh;
 mod options;
@@ -12,6 +11,5 @@ mod reports;
 mod smoother;
 mod watching;
 
-pub use files::{read_field, read_mesh, write_mesh};
 pub use mesh::RawTriMesh;
 pub use smoother::{RawSmoother, smooth};

@@ -1,27 +1,14 @@
 //! Reports as plain objects; what there is none of is null.
 
-use js_sys::{Array, Object};
+use js_sys::Object;
 use nalgebra_sparse::CscMatrix;
 use wasm_bindgen::JsValue;
 
-use crate::error::{Diagnostic, OutOfMemory};
+use crate::error::OutOfMemory;
 use crate::field::CriticalCounts;
 use crate::mesh::MeshTopology;
 use crate::smooth::{ChosenEpsilon, MaximumPrinciple, SmoothReport, SmoothnessEnergies, SolverReport};
 use crate::wasm::shared::answer::Answer;
-
-pub(super) fn diagnostics(warnings: &[Diagnostic]) -> Array {
-    let diagnostic = |warning: &Diagnostic| {
-        let answer = Answer::new();
-        answer.text("code", warning.code);
-        answer.text("message", &warning.message);
-        answer.count("count", warning.count);
-        let examples: Array = warning.examples.iter().map(|&id| JsValue::from_f64(f64::from(id))).collect();
-        answer.set("examples", &examples);
-        answer.object()
-    };
-    warnings.iter().map(diagnostic).collect()
-}
 
 pub(super) fn topology(topology: &MeshTopology) -> Object {
     let answer = Answer::new();

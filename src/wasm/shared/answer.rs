@@ -89,13 +89,11 @@ impl Answer {
         self.set(name, &JsValue::from_f64(value));
     }
 
-    #[cfg(feature = "wasm")]
     /// A number, or null.
     pub(in crate::wasm) fn optional(&self, name: &str, value: Option<f64>) {
         self.set(name, &value.map_or(JsValue::NULL, JsValue::from_f64));
     }
 
-    #[cfg(feature = "wasm")]
     pub(in crate::wasm) fn count(&self, name: &str, count: usize) {
         self.number(name, count as f64);
     }
@@ -104,7 +102,6 @@ impl Answer {
         self.set(name, &JsValue::from_str(text));
     }
 
-    #[cfg(feature = "wasm")]
     pub(in crate::wasm) fn flag(&self, name: &str, flag: bool) {
         self.set(name, &JsValue::from_bool(flag));
     }

@@ -30,11 +30,11 @@ pub(crate) const RULES: Rules = Rules {
         (
             "io",
             &[
-                &["mesh_data", "scan"],
+                &["formats", "mesh_data", "scan"],
                 &["cursor"],
                 &["assembly"],
                 &["obj", "off", "ply", "vtk", "table"],
-                &["write"],
+                &["columns", "write"],
                 &["mod"],
             ],
         ),
@@ -129,7 +129,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["scene", "mod"],
             ],
         ),
-        ("wasm", &[&["shared"], &["core", "snapshot"], &["mod"]]),
+        ("wasm", &[&["shared"], &["core", "files", "snapshot"], &["mod"]]),
     ],
     platform: &["mesh/shapes.rs"],
     state: &["wasm/shared/reserve.rs"],

@@ -21,9 +21,3 @@ export function toLevels(value, vertices) {
   if (areGiven) settings.saddles = toVertices(saddles, 'saddles', vertices);
   return settings;
 }
-
-/** Fields to be written: every one as numbers, under its name. */
-export function toFields(value) {
-  if (!isRecord(value)) throw invalidArgument('fields', 'a plain object of arrays by name');
-  return Object.fromEntries(Object.entries(value).map(([name, field]) => [name, toNumbers(field, `fields.${name}`)]));
-}

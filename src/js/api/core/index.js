@@ -5,7 +5,6 @@ import { SmoothingFamily } from './family.js';
 import { TriMesh } from './mesh.js';
 
 export { MorseSmoothError } from '../../runtime/error.js';
-export { readField, readMesh, writeMesh } from './files.js';
 export { TriMesh } from './mesh.js';
 export { Smoother, smooth } from './smoother.js';
 export { SmoothingFamily } from './family.js';

@@ -18,7 +18,7 @@ function stateOf(mesh) {
 export const handleOf = (mesh) => stateOf(mesh).handle;
 
 /** A mesh that the module made, not the constructor. */
-export function meshOf(handle) {
+function meshOf(handle) {
   const mesh = Object.create(TriMesh.prototype);
   states.set(mesh, { handle, topology: null });
   return mesh;
@@ -145,7 +145,7 @@ export class TriMesh {
   }
 }
 
-// Functions, not private methods: a mesh that was read from a file or cut out of another is not made by the constructor.
+// Functions, not private methods: a mesh that was cut out of another is not made by the constructor.
 
 /** Reads a field by a method of the raw mesh. */
 function analyse(mesh, method, values, options, ...more) {

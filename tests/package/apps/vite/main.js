@@ -1,8 +1,10 @@
 import init, * as api from 'morse-smooth';
 import initInline, * as inline from 'morse-smooth/inline';
 import wasmUrl from 'morse-smooth/morse_smooth_bg.wasm?url';
+import initFiles, * as files from 'morse-smooth/files';
 import initPictures, * as pictures from 'morse-smooth/snapshot';
 import { draw } from '../draw.js';
+import { read } from '../read.js';
 import { use } from '../use.js';
 
 const inWorker = () =>
@@ -15,12 +17,14 @@ const inWorker = () =>
 async function all() {
   await init();
   await initInline();
+  await initFiles();
   await initPictures();
   const { byteLength } = await (await fetch(wasmUrl)).arrayBuffer();
-  const oneError = pictures.MorseSmoothError === api.MorseSmoothError;
+  const oneError = [files, pictures].every(({ MorseSmoothError }) => MorseSmoothError === api.MorseSmoothError);
   return {
     page: use(api),
     inline: use(inline),
+    file: read(files),
     picture: draw(pictures),
     oneError,
     worker: await inWorker(),
