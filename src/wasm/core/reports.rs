@@ -1,6 +1,6 @@
 //! Reports as plain objects; what there is none of is null.
 
-use js_sys::Object;
+use js_sys::{Array, Object};
 use nalgebra_sparse::CscMatrix;
 use wasm_bindgen::JsValue;
 
