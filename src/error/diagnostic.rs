@@ -1,0 +1,34 @@
+//! Warnings.
+
+/// Something in the input that was put right or left out, and that the user should know.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+pub struct Diagnostic {
+    /// Stable name, such as `"DegenerateTriangle"`.
+    pub code: &'static str,
+    /// One sentence for people.
+    pub message: String,
+    /// How many were found.
+    pub count: usize,
+    /// Ids of the first few (at most [`Diagnostic::EXAMPLES`]).
+    pub examples: Vec<u32>,
+}
+
+impl Diagnostic {
+    /// How many ids [`Diagnostic::examples`] holds at most.
+    pub const EXAMPLES: usize = 8;
+
+    /// Adds a warning about the ids that were found, unless there are none. The message is told how many they are.
+    pub(crate) fn report(
+        warnings: &mut Vec<Self>,
+        code: &'static str,
+        ids: &mut dyn Iterator<Item = u32>,
+        message: &dyn Fn(usize) -> String,
+    ) {
+        let examples: Vec<u32> = ids.take(Self::EXAMPLES).collect();
+        let count = examples.len() + ids.count();
+        if count > 0 {
+            warnings.push(Self { code, message: message(count), count, examples });
+        }
+    }
+}
