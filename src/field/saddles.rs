@@ -1,6 +1,6 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
-use super::arrays::{append, numbers, push, ranges};
+use super::arrays::{append, numbers, push};
 use super::critical::{ONE_CHANGE, exact_changes};
 use super::link::{LinkSides, opposite};
 use super::order::VertexOrder;
@@ -8,6 +8,7 @@ use super::sorting::{ascending_bits, sort_by_key};
 use super::steepest::steepest_of;
 use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
 
 /// The work with one vertex.

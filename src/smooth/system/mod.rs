@@ -20,6 +20,9 @@ use crate::support::memory;
 const ENTRY: u64 = (size_of::<usize>() + size_of::<f64>()) as u64;
 const SOLVING: u64 = 128;
 
+/// The work with an entry of a matrix that is copied into a part of it.
+const COPIED: u64 = 10;
+
 /// Makes sure of the memory that solving takes beside the factor.
 fn ensure_solving(rows: usize, channels: usize) -> Result<(), OutOfMemory> {
     memory::ensure(SOLVING * rows as u64 * channels as u64)
