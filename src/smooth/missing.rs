@@ -9,9 +9,6 @@ use crate::smooth::SmootherOptions;
 use crate::support::memory;
 use crate::support::watch::Watch;
 
-/// The work with a triangle when a part of a mesh is made a mesh of its own.
-const SUBMESH: u64 = 300;
-
 /// The triangles whose three vertices have values, as a mesh of its own.
 #[derive(Debug)]
 pub(super) struct KnownPart {
@@ -111,10 +108,9 @@ impl KnownPart {
     /// `Cancelled`, `OutOfMemory`.
     pub(super) fn without(mesh: &TriMesh, missing: &[u32], watch: &Watch<'_>) -> Result<Option<Self>> {
         memory::ensure(mesh.vertex_count() as u64)?;
-        watch.tick(SUBMESH * mesh.triangle_count() as u64)?;
         let mut has = vec![true; mesh.vertex_count()];
         missing.iter().for_each(|&v| has[v as usize] = false);
-        match mesh.submesh(&|v| has[v as usize]) {
+        match mesh.submesh_watched(&|v| has[v as usize], watch) {
             Ok(Submesh { mesh, vertices, .. }) => Ok(Some(Self { vertices, mesh })),
             Err(MeshError::EmptyMesh { .. }) => Ok(None),
             Err(error) => Err(error.into()),

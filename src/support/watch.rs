@@ -163,14 +163,21 @@ impl State<'_> {
     #[cold]
     #[inline(never)]
     fn tell(&mut self) -> Result<(), Cancelled> {
+        if self.stopped {
+            return Err(Cancelled);
+        }
         self.account();
         self.told = self.told.max(self.fraction());
         let progress = Progress { phase: self.phase.unwrap_or(self.preparation), fraction: self.told };
         if let Some(watcher) = &mut self.watcher {
-            // Work that is stopped once stays so: callers that try another way than the one that failed hear it again.
-            self.stopped |= watcher(progress).is_break();
+            self.stopped = watcher(progress).is_break();
         }
-        if self.stopped { Err(Cancelled) } else { Ok(()) }
+        if !self.stopped {
+            return Ok(());
+        }
+        // Work that is stopped once stays so: whoever goes on, or tries another way than the one that failed, hears it at the next tick.
+        self.untold = PATIENCE;
+        Err(Cancelled)
     }
 }
 
