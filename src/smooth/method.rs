@@ -14,11 +14,11 @@ use super::operators::Operators;
 use super::report::Smoothed;
 use super::systems::Systems;
 use super::{Constraints, SmootherOptions};
-use crate::error::{Error, MeshError, OptionError, Result};
+use crate::error::{MeshError, OptionError, Result};
 use crate::field::{Features, Missing};
 use crate::mesh::TriMesh;
 use crate::support::memory;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// A method of smoothing with its options, for [`Smoother::apply`](super::Smoother::apply).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -142,17 +142,20 @@ struct Mask {
 
 impl Masked {
     /// That of these missing vertices.
-    fn get(&mut self, mesh: &TriMesh, missing: &[u32], options: SmootherOptions) -> Result<&mut Mask> {
+    fn get(
+        &mut self,
+        mesh: &TriMesh,
+        missing: &[u32],
+        options: SmootherOptions,
+        watch: &Watch<'_>,
+    ) -> Result<&mut Mask> {
         if self.0.as_ref().is_some_and(|mask| *mask.missing != *missing) {
             self.0 = None;
         }
         match &mut self.0 {
             Some(mask) => Ok(mask),
             none => {
-                let part = match Part::without(mesh, missing, options) {
-                    Err(Error::Mesh(MeshError::EmptyMesh { .. })) => None,
-                    part => Some(part?),
-                };
+                let part = Part::without(mesh, missing, options, watch)?;
                 Ok(none.insert(Mask { missing: missing.into(), part, systems: Systems::default() }))
             }
         }
@@ -169,6 +172,7 @@ pub(super) fn apply(
     watch: &Watch<'_>,
 ) -> Result<Smoothed> {
     method.check(operators.options)?;
+    watch.prepare(Phase::Analysis);
     let (mesh, channels) = (&operators.mesh, method.channels());
     // The values of the result, and those of the part that has values; lists and marks of vertices.
     memory::ensure((16 * channels.min(values.len()) + 16) as u64 * mesh.vertex_count() as u64)?;
@@ -177,28 +181,30 @@ pub(super) fn apply(
         Missing::Omit | Missing::Fill => missing_vertices(mesh, values, channels)?,
     };
     if missing.is_empty() {
-        let input = Input { operators, channels: Channels::new(mesh, values, channels, None)?, gaps: None };
+        let input = Input { operators, channels: Channels::new(mesh, values, channels, Arc::default())?, gaps: None };
         return method.start(&input, systems, watch);
     }
-    let mask = masked.get(mesh, &missing, operators.options)?;
+    let mask = masked.get(mesh, &missing, operators.options, watch)?;
     if method.missing() == Missing::Fill {
-        let gaps = Gaps { missing: Arc::clone(&mask.missing), known: mask.part.as_ref() };
-        let channels = Channels::new(mesh, values, channels, Some(&gaps))?;
+        let gaps = Gaps { missing: Arc::clone(&mask.missing), part: mask.part.as_ref() };
+        let channels = Channels::new(mesh, values, channels, Arc::clone(&gaps.missing))?;
         return method.start(&Input { operators, channels, gaps: Some(gaps) }, systems, watch);
     }
-    let Some(part) = &mask.part else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
+    let Some(Part { known, operators }) = &mask.part else {
+        return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into());
+    };
     let listed = match method.constraints() {
         Some(Constraints { features: Features::Vertices(vertices), .. }) => {
-            Some(part.find(vertices, mesh.vertex_count())?)
+            Some(known.find(vertices, mesh.vertex_count())?)
         }
         _ => None,
     };
     let method = listed.as_ref().map_or(*method, |vertices| method.with_features(Features::Vertices(vertices)));
-    let of_part = part.gather(values, channels);
-    let channels_of_part = Channels::new(&part.operators.mesh, &of_part, channels, None)?;
-    let input = Input { operators: &part.operators, channels: channels_of_part, gaps: None };
-    let smoothed = method.start(&input, &mut mask.systems, watch).map_err(|error| to_whole(&part.vertices, error))?;
+    let of_part = known.gather(values, channels);
+    let channels_of_part = Channels::new(&known.mesh, &of_part, channels, Arc::default())?;
+    let input = Input { operators, channels: channels_of_part, gaps: None };
+    let smoothed = method.start(&input, &mut mask.systems, watch).map_err(|error| to_whole(&known.vertices, error))?;
     let mut whole = values.to_vec();
-    part.scatter(&smoothed.values, channels, &mut whole);
+    known.scatter(&smoothed.values, channels, &mut whole);
     Ok(Smoothed { values: whole, reports: smoothed.reports })
 }

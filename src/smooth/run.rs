@@ -11,6 +11,9 @@ use crate::error::Result;
 use crate::support::memory;
 use crate::support::watch::Phase;
 
+/// The work with a vertex whose values are restored and measured, in about a nanosecond each.
+const MEASURED: u64 = 60;
+
 /// What finds the smooth values: a linear system, or the steps of a filter.
 ///
 /// A family of all ε is no such procedure, as it has no values to return: it will be a function beside [`run`] that borrows the same
@@ -76,6 +79,7 @@ pub(super) fn run(
             if let Some(set) = &about.constraints {
                 level_constant_components(&operators.active, set, channel, &mut x, &mut values);
             }
+            stages.watch.tick(MEASURED * n)?;
             let facts = Facts {
                 measures: procedure.measures(&x, &channel.normalized),
                 perturbation_factor: factor,

@@ -64,7 +64,7 @@ pub(in crate::smooth) fn start(
     let norm = Norm::Weights { vertices: set.vertices.clone(), weights: weights(&set, options)? };
     let unknowns = components.remaining(&operators.active);
     // The weights are zero where values are missing, as no such vertex is constrained.
-    let system = systems.regularized(operators, &unknowns, &term(norm, None))?;
+    let system = systems.regularized(operators, &unknowns, &term(norm, None), watch)?;
     let about = About {
         method: MethodName::LeastSquares,
         equation: Equation::LeastSquares,

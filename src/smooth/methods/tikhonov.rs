@@ -113,7 +113,7 @@ pub(in crate::smooth) fn start(
     };
     let unknowns = unconstrained.as_ref().map(|components| components.remaining(active));
     let unknowns = unknowns.as_deref().unwrap_or(active.list());
-    let system = systems.regularized(operators, unknowns, &term(norm, input.gaps.as_ref()))?;
+    let system = systems.regularized(operators, unknowns, &term(norm, input.gaps.as_ref()), watch)?;
     let (work, analysis, factorization) = system.forecast(options.epsilon, settings(operators.options, true));
     let groups = input.channels.group_count();
     let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
