@@ -35,7 +35,7 @@ const TABLE = {
     ...besideTheMain('files'),
     title: 'the WebAssembly module of the files',
     without: ['operators', 'render', 'smooth', 'solve'],
-    limit: 68_700,
+    limit: 70_400,
   },
   snapshot: {
     ...besideTheMain('snapshot'),

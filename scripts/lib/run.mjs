@@ -13,10 +13,10 @@ const TAIL_LINES = 40;
  */
 export function execute(command, parameters, { show = false, limit = 0, env = {}, cwd = root } = {}) {
   return new Promise((resolve) => {
-    const colours = show && process.stdout.isTTY ? { FORCE_COLOR: '1', CARGO_TERM_COLOR: 'always' } : {};
+    const colors = show && process.stdout.isTTY ? { FORCE_COLOR: '1', CARGO_TERM_COLOR: 'always' } : {};
     const child = spawn(command, parameters, {
       cwd,
-      env: { ...environment, ...colours, ...env },
+      env: { ...environment, ...colors, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
       timeout: limit * 1000,
       killSignal: 'SIGKILL',

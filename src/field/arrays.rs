@@ -1,10 +1,7 @@
-//! Arrays whose memory is made sure of before it is taken, and loops that count their work in pieces.
+//! Arrays whose memory is made sure of before it is taken.
 
-use core::ops::Range;
-
-use crate::error::{Cancelled, OutOfMemory};
+use crate::error::OutOfMemory;
 use crate::support::memory;
-use crate::support::watch::Watch;
 
 fn ensure<T>(count: usize) -> Result<(), OutOfMemory> {
     memory::ensure((count as u64).saturating_mul(size_of::<T>() as u64))
@@ -66,30 +63,4 @@ fn grow<T>(vector: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     ensure::<T>(vector.len() + more)?;
     vector.reserve_exact(more);
     Ok(())
-}
-
-/// So many elements are gone through between two counts of the work: some microseconds.
-const PIECE: usize = 4096;
-
-/// The elements in pieces, each counted as work before it is handed out. `ticks` is the work with one element.
-#[inline]
-pub(super) fn pieces<'a, T>(
-    elements: &'a [T],
-    ticks: u64,
-    watch: &'a Watch<'_>,
-) -> impl Iterator<Item = Result<&'a [T], Cancelled>> {
-    elements.chunks(PIECE).map(move |piece| watch.tick(ticks * piece.len() as u64).map(|()| piece))
-}
-
-/// The numbers from 0 below `count` in pieces, each counted as work before it is handed out.
-#[inline]
-pub(super) fn ranges<'a>(
-    count: usize,
-    ticks: u64,
-    watch: &'a Watch<'_>,
-) -> impl Iterator<Item = Result<Range<usize>, Cancelled>> + 'a {
-    (0..count).step_by(PIECE).map(move |start| {
-        let end = count.min(start + PIECE);
-        watch.tick(ticks * (end - start) as u64).map(|()| start..end)
-    })
 }

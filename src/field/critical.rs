@@ -1,12 +1,13 @@
 //! Minima, maxima and saddles, with and without a tolerance \[Patane09, section 3\].
 
-use super::arrays::{filled, pieces, push, ranges};
+use super::arrays::{filled, push};
 use super::link::LinkScratch;
 use super::order::VertexOrder;
 use super::scalar_field::{OnMesh, Part, ScalarField};
 use crate::error::{FieldError, OptionError, OutOfMemory, Result};
 use crate::mesh::{Connectivity, LinkKind};
 use crate::support::named::named;
+use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::{Phase, Watch};
 
 /// What kind of critical point a vertex is.

@@ -1,11 +1,12 @@
 //! At which δ every critical vertex stops being one, and so C_δ for all δ at once \[Patane09, section 3\].
 
-use super::arrays::{filled, pieces, with_room};
+use super::arrays::{filled, with_room};
 use super::critical::{CriticalCounts, CriticalKind, CriticalPoint, LinkReading, Measured, measured};
 use super::link::{FEW, LinkScratch};
 use super::scalar_field::{OnMesh, Part, ScalarField};
 use crate::error::{FieldError, OutOfMemory, Result};
 use crate::mesh::{Connectivity, LinkKind};
+use crate::support::pieces::pieces;
 use crate::support::watch::{Phase, Watch};
 
 /// A critical vertex and the δ at which it stops being one.

@@ -1,9 +1,9 @@
 //! Components of growing sublevel or superlevel sets, by union and find.
 
-use super::arrays::ranges;
 use super::saddles::Saddles;
 use super::sweep::Sweep;
 use crate::error::FieldError;
+use crate::support::pieces::ranges;
 use crate::support::union_find::UnionFind;
 use crate::support::watch::Watch;
 

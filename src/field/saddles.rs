@@ -1,6 +1,6 @@
 //! All vertices at which components of sublevel or superlevel sets can meet.
 
-use super::arrays::{append, numbers, push, ranges};
+use super::arrays::{append, numbers, push};
 use super::critical::{ONE_CHANGE, exact_changes};
 use super::link::{LinkSides, opposite};
 use super::order::VertexOrder;
@@ -8,10 +8,12 @@ use super::sorting::{ascending_bits, sort_by_key};
 use super::steepest::steepest_of;
 use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
 
-/// The work with one vertex.
+/// The work with one vertex; with one whose sides are inspected, as most are where a field is noisy.
 const EACH: u64 = 20;
+const INSPECTED: u64 = 120;
 
 /// One vertex with several components of its lower or upper link.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +91,7 @@ impl Saddles {
         let kinds = connectivity.link_kinds();
         let mut sides = LinkSides::new(mesh.vertex_count())?;
         let mut this = Self::empty()?;
-        for range in ranges(states.len(), EACH, watch) {
+        for range in ranges(states.len(), INSPECTED, watch) {
             for v in range? {
                 let v = v as u32;
                 if kinds[v as usize] == LinkKind::Cycle && states[v as usize] < 4 * ONE_CHANGE {

@@ -7,6 +7,7 @@ use super::order::{ValueRange, VertexOrder, value_range};
 use crate::error::{FieldError, OptionError, OutOfMemory, Result};
 use crate::mesh::{Submesh, TriMesh};
 use crate::support::named::named;
+use crate::support::watch::Watch;
 
 /// What a value that is not a number (NaN) means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -107,6 +108,14 @@ impl<'a> ScalarField<'a> {
     /// Those of [`ScalarField::new`], for an infinite value, too; `EmptyMesh` where no triangle has three values; `InapplicableOption` for
     /// [`Missing::Fill`]: only smoothing can fill.
     pub fn with_missing(mesh: &TriMesh, values: &'a [f64], missing: Missing) -> Result<Self> {
+        Self::watched(mesh, values, missing, &Watch::none())
+    }
+
+    /// The same as [`ScalarField::with_missing`], watched: the part of the mesh that has values is made a mesh.
+    ///
+    /// # Errors
+    /// Those of [`ScalarField::with_missing`]; `Cancelled`.
+    pub fn watched(mesh: &TriMesh, values: &'a [f64], missing: Missing, watch: &Watch<'_>) -> Result<Self> {
         match missing {
             Missing::Fill => {
                 let reason = "only smoothing can fill in missing values".to_owned();
@@ -116,7 +125,8 @@ impl<'a> ScalarField<'a> {
                 if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {
                     return Err(FieldError::NonFiniteValue { vertex: vertex as u32 }.into());
                 }
-                let Submesh { mesh: part, vertices, triangles } = mesh.submesh(&|v| !values[v as usize].is_nan())?;
+                let Submesh { mesh: part, vertices, triangles } =
+                    mesh.submesh_watched(&|v| !values[v as usize].is_nan(), watch)?;
                 let values = collected(vertices.len(), vertices.iter().map(|&v| values[v as usize]))?;
                 let range = value_range(part.connectivity(), &values)?;
                 let origin = Part { vertices, triangles, whole: mesh.clone() };

@@ -1,9 +1,10 @@
 //! Steepest paths along edges: where each vertex leads to, upwards and downwards.
 
-use super::arrays::{filled, numbers, pieces, push, ranges};
+use super::arrays::{filled, numbers, push};
 use super::order::VertexOrder;
 use crate::error::{FieldError, OutOfMemory};
 use crate::mesh::{Connectivity, TriMesh, difference, norm};
+use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::Watch;
 
 /// The work with one edge.

@@ -1,5 +1,7 @@
 //! What the readers share: faces become triangles, fields get unique names, what is left out becomes a warning.
 
+use std::collections::BTreeMap;
+
 use super::mesh_data::{MeshData, MeshFormat};
 use super::scan::{push, reserve, room};
 use crate::error::{Diagnostic, ParseError};
@@ -167,38 +169,28 @@ pub(super) fn check_length(field: &str, expected: u64, actual: u64) -> Result<()
     Ok(())
 }
 
-/// Names given so far in alphabetic order, each with the number that its next namesake tries first.
+/// Names given so far, each with the number that its next namesake tries first. In order, because a table may have very many.
 #[derive(Debug, Default)]
-pub(super) struct Names(Vec<(String, u64)>);
+pub(super) struct Names(BTreeMap<String, u64>);
 
 impl Names {
     /// `name`, or `name_2`, `name_3`, … when it was there before.
     pub(super) fn unique(&mut self, name: &str) -> String {
-        let Ok(place) = self.find(name) else {
-            self.add(name);
+        let Some(&last) = self.0.get(name) else {
+            self.0.insert(name.to_owned(), 1);
             return name.to_owned();
         };
-        let mut number = self.0[place].1;
+        let mut number = last;
         // More than one round only where `name_2` is itself a name of the file.
         let unique = loop {
             number += 1;
             let candidate = format!("{name}_{number}");
-            if self.find(&candidate).is_err() {
+            if !self.0.contains_key(&candidate) {
                 break candidate;
             }
         };
-        self.0[place].1 = number;
-        self.add(&unique);
+        self.0.insert(name.to_owned(), number);
+        self.0.insert(unique.clone(), 1);
         unique
-    }
-
-    fn add(&mut self, name: &str) {
-        if let Err(place) = self.find(name) {
-            self.0.insert(place, (name.to_owned(), 1));
-        }
-    }
-
-    fn find(&self, name: &str) -> Result<usize, usize> {
-        self.0.binary_search_by(|(known, _)| known.as_str().cmp(name))
     }
 }

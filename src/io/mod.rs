@@ -42,7 +42,7 @@ pub struct ReadOptions {
 /// gets a number.
 ///
 /// Warnings: `SkippedFace` (fewer than three corners), `PolygonTriangulated` (more than three), `SkippedData` (content
-/// without a place in [`MeshData`], such as colours or lines), `RenamedField`.
+/// without a place in [`MeshData`], such as colors or lines), `RenamedField`.
 ///
 /// # Errors
 /// [`ParseError`], see its variants.

@@ -17,14 +17,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
     let mut text = Scanner::new(bytes).with_comments().with_continuations();
     let mut assembly = Assembly::default();
     let mut largest = Largest { index: 0, face: 0 };
-    let mut colours = 0;
+    let mut colors = 0;
     let mut lines_and_points = 0;
     let mut unknown = 0;
     let mut first_unknown = String::new();
     while text.next_row() {
         let keyword = text.word_in_row().unwrap_or_default();
         match keyword {
-            b"v" => colours += u64::from(read_vertex(&mut text, &mut assembly)?),
+            b"v" => colors += u64::from(read_vertex(&mut text, &mut assembly)?),
             b"f" => read_face(&mut text, &mut assembly, &mut largest)?,
             b"l" | b"p" => lines_and_points += 1,
             _ if SILENT.contains(&keyword) => {}
@@ -42,8 +42,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
     if largest.index > vertices as i64 && vertices > 0 {
         return Err(ParseError::FaceIndexOutOfBounds { face: largest.face, index: largest.index, vertices });
     }
-    if colours > 0 {
-        assembly.skipped(format!("weights or colours of {colours} vertices"), colours);
+    if colors > 0 {
+        assembly.skipped(format!("weights or colors of {colors} vertices"), colors);
     }
     if lines_and_points > 0 {
         assembly.skipped(format!("{lines_and_points} line and point elements"), lines_and_points);
@@ -60,7 +60,7 @@ struct Largest {
     face: u64,
 }
 
-/// Whether a weight or colour follows the coordinates.
+/// Whether a weight or color follows the coordinates.
 fn read_vertex(text: &mut Scanner<'_>, assembly: &mut Assembly) -> Result<bool, ParseError> {
     for _ in 0..3 {
         let Some(word) = text.word_in_row() else {

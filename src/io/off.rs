@@ -34,7 +34,7 @@ pub(super) fn keyword(word: &[u8]) -> Option<Keyword> {
     (after.is_empty() || after[0].is_ascii_digit()).then_some(keyword)
 }
 
-/// Reads an OFF file; colours, normals and texture coordinates are left out with a warning.
+/// Reads an OFF file; colors, normals and texture coordinates are left out with a warning.
 pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
     let mut text = Scanner::new(bytes).with_comments();
     let mut found = Keyword::default();
@@ -69,7 +69,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
 
     let mut assembly = Assembly::default();
     reserve(&mut assembly.positions, vertices as usize * 3)?;
-    let mut coloured_vertices = 0;
+    let mut colored_vertices = 0;
     for _ in 0..vertices {
         if !text.next_row() {
             return Err(text.unexpected_end("a vertex"));
@@ -80,11 +80,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
             };
             assembly.positions.push(parse_number(word).ok_or_else(|| text.invalid_number(word))?);
         }
-        coloured_vertices += u64::from(text.word_in_row().is_some());
+        colored_vertices += u64::from(text.word_in_row().is_some());
         text.rest_of_line();
     }
     assembly.reserve_triangles(faces)?;
-    let mut coloured_faces = 0;
+    let mut colored_faces = 0;
     for _ in 0..faces {
         if !text.next_row() {
             return Err(text.unexpected_end("a face"));
@@ -98,15 +98,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
             assembly.corner(corner, vertices)?;
         }
         assembly.close_polygon()?;
-        coloured_faces += u64::from(text.word_in_row().is_some());
+        colored_faces += u64::from(text.word_in_row().is_some());
         text.rest_of_line();
     }
-    if coloured_vertices > 0 {
-        let what = if found.attributes { "colours, normals or texture coordinates" } else { "numbers after z" };
-        assembly.skipped(format!("{what} of {coloured_vertices} vertices"), coloured_vertices);
+    if colored_vertices > 0 {
+        let what = if found.attributes { "colors, normals or texture coordinates" } else { "numbers after z" };
+        assembly.skipped(format!("{what} of {colored_vertices} vertices"), colored_vertices);
     }
-    if coloured_faces > 0 {
-        assembly.skipped(format!("colours of {coloured_faces} faces"), coloured_faces);
+    if colored_faces > 0 {
+        assembly.skipped(format!("colors of {colored_faces} faces"), colored_faces);
     }
     if text.next_row() {
         assembly.skipped("text after the last face", 1);

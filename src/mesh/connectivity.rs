@@ -1,8 +1,16 @@
 //! How vertices, edges and triangles meet, without positions.
 
-use crate::error::OutOfMemory;
+use crate::error::{Cancelled, MeshError, OutOfMemory};
 use crate::support::counting_sort::{offsets, rewind};
 use crate::support::memory;
+use crate::support::watch::Watch;
+
+/// The work with a triangle when stars are gathered; with each triangle of a star when edges are made, and when links are told; with an
+/// edge that is looked at.
+const STAR: u64 = 40;
+const HALF_EDGES: u64 = 30;
+const FAN: u64 = 15;
+const EDGE: u64 = 10;
 
 /// What the triangles around a vertex look like: the shape of its link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +42,8 @@ pub struct Connectivity {
 
 impl Connectivity {
     /// `triangles` must hold ids below `n`, no id twice in one triangle, no triangle twice: see `validate`.
-    pub(super) fn new(n: usize, triangles: Vec<[u32; 3]>) -> Result<Self, OutOfMemory> {
+    pub(super) fn new(n: usize, triangles: Vec<[u32; 3]>, watch: &Watch<'_>) -> Result<Self, MeshError> {
+        watch.tick(STAR * triangles.len() as u64)?;
         let (star_offsets, stars) = stars(n, &triangles);
         let sizes = || star_offsets.windows(2).map(|pair| (pair[1] - pair[0]) as usize);
         let referenced = sizes().filter(|&size| size > 0).count();
@@ -52,9 +61,9 @@ impl Connectivity {
             link_kinds: Vec::new(),
             special: Vec::new(),
         };
-        this.build_edges(n, 2 * largest_star)?;
+        this.build_edges(n, 2 * largest_star, watch)?;
         memory::ensure(10 * n as u64)?;
-        this.link_kinds = this.classify_links();
+        this.link_kinds = this.classify_links(watch)?;
         let is_special = |&v: &u32| matches!(this.link_kinds[v as usize], LinkKind::Path | LinkKind::NonManifold);
         let mut special = Vec::with_capacity((0..n as u32).filter(is_special).count());
         special.extend((0..n as u32).filter(is_special));
@@ -71,14 +80,16 @@ impl Connectivity {
 
     /// Collects the half-edges of every vertex that lead to a larger id, sorted by that id, so that edges come out in
     /// lexicographic order without a global sort.
-    fn build_edges(&mut self, n: usize, most_at_a_vertex: usize) -> Result<(), OutOfMemory> {
+    fn build_edges(&mut self, n: usize, most_at_a_vertex: usize, watch: &Watch<'_>) -> Result<(), MeshError> {
         // The id at the other end above, the half-edge below: one integer sorts faster than a pair.
         let mut half_edges: Vec<u64> = Vec::with_capacity(most_at_a_vertex);
         self.edge_offsets.push(0);
         let packed = |end: u32, half_edge: u32| u64::from(end) << 32 | u64::from(half_edge);
         for v in 0..n as u32 {
             half_edges.clear();
-            for &t in star_of(&self.star_offsets, &self.stars, v) {
+            let star = star_of(&self.star_offsets, &self.stars, v);
+            watch.tick(HALF_EDGES * star.len() as u64)?;
+            for &t in star {
                 let corners = self.triangles[t as usize];
                 let c = corner_of(corners, v);
                 let (next, previous) = (corners[(c + 1) % 3], corners[(c + 2) % 3]);
@@ -117,31 +128,33 @@ impl Connectivity {
         Ok(())
     }
 
-    fn classify_links(&self) -> Vec<LinkKind> {
+    fn classify_links(&self, watch: &Watch<'_>) -> Result<Vec<LinkKind>, Cancelled> {
         let n = self.vertex_count();
         let mut neighbours = vec![0_u32; n];
         let mut branching = vec![false; n];
+        watch.tick(EDGE * self.edges.len() as u64)?;
         for (edge, ends) in self.edges.iter().enumerate() {
             for &v in ends {
                 neighbours[v as usize] += 1;
                 branching[v as usize] |= self.triangles_of_edge(edge as u32).len() > 2;
             }
         }
-        (0..n as u32)
-            .map(|v| {
-                let star = self.star(v).len() as u32;
-                let paths = neighbours[v as usize].wrapping_sub(star);
-                if star == 0 {
-                    LinkKind::Isolated
-                } else if branching[v as usize] || paths > 1 || self.fan_size(v) != star {
-                    LinkKind::NonManifold
-                } else if paths == 0 {
-                    LinkKind::Cycle
-                } else {
-                    LinkKind::Path
-                }
-            })
-            .collect()
+        let mut kinds = Vec::with_capacity(n);
+        for v in 0..n as u32 {
+            let star = self.star(v).len() as u32;
+            watch.tick(FAN * u64::from(star))?;
+            let paths = neighbours[v as usize].wrapping_sub(star);
+            kinds.push(if star == 0 {
+                LinkKind::Isolated
+            } else if branching[v as usize] || paths > 1 || self.fan_size(v) != star {
+                LinkKind::NonManifold
+            } else if paths == 0 {
+                LinkKind::Cycle
+            } else {
+                LinkKind::Path
+            });
+        }
+        Ok(kinds)
     }
 
     /// Number of triangles around `v` that are reached from its first one across edges with two triangles.

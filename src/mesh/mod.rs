@@ -19,6 +19,7 @@ pub use weld::{WeldOptions, Welded, WeldedField, weld};
 
 use crate::error::{Diagnostic, MeshError};
 use crate::support::memory;
+use crate::support::watch::Watch;
 
 /// A checked, immutable triangle mesh: any simplicial complex of triangles, closed or open, manifold or not, in one or
 /// several components. Cloning is cheap: the data is shared.
@@ -61,14 +62,22 @@ impl TriMesh {
     /// `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`, `PositionOverflow`,
     /// `IndexOutOfBounds`, `OutOfMemory`, and `EmptyMesh` where no vertex or no usable triangle is there.
     pub fn new(positions: Vec<f64>, triangles: Vec<u32>) -> Result<Self, MeshError> {
+        Self::watched(positions, triangles, &Watch::none())
+    }
+
+    /// The same, watched.
+    ///
+    /// # Errors
+    /// Those of [`TriMesh::new`]; `Cancelled`.
+    pub(crate) fn watched(positions: Vec<f64>, triangles: Vec<u32>, watch: &Watch<'_>) -> Result<Self, MeshError> {
         let n = positions.len() / 3;
         check_arrays(&positions, &triangles)?;
         memory::ensure(validate::bytes(n, triangles.len() / 3))?;
-        let checked = validate::check(n, &triangles)?;
+        let checked = validate::check(n, &triangles, watch)?;
         drop(triangles);
         let m = checked.triangles.len();
         memory::ensure(Connectivity::bytes(n, m) + 8 * m as u64)?;
-        let connectivity = Connectivity::new(n, checked.triangles)?;
+        let connectivity = Connectivity::new(n, checked.triangles, watch)?;
         let areas = geometry::areas(&positions, connectivity.triangles());
         let has_no_area = || areas.iter().map(|&area| area == 0.0);
         let mut warnings = checked.warnings;

@@ -1,11 +1,16 @@
 //! From raw arrays to triangles that can be trusted: every index in range, every vertex id at most once a triangle,
 //! every triangle once.
 
-use crate::error::{Diagnostic, MeshError};
+use crate::error::{Cancelled, Diagnostic, MeshError};
 use crate::support::counting_sort::{offsets, rewind};
+use crate::support::watch::Watch;
 
 /// Beyond this, fourth powers (squared cross products of sides) leave the range of double precision.
 const LARGEST_COORDINATE: f64 = 1e75;
+
+/// The work with a triangle that is put into its bucket, and with one in its bucket.
+const TRIANGLE: u64 = 40;
+const KEY: u64 = 30;
 
 pub(super) struct Checked {
     pub(super) triangles: Vec<[u32; 3]>,
@@ -20,13 +25,13 @@ pub(super) fn bytes(n: usize, m: usize) -> u64 {
 }
 
 /// Finds the triangles that can be kept. They must have passed [`check_ids`].
-pub(super) fn check(n: usize, triangles: &[u32]) -> Result<Checked, MeshError> {
+pub(super) fn check(n: usize, triangles: &[u32], watch: &Watch<'_>) -> Result<Checked, MeshError> {
     let (all, _) = triangles.as_chunks::<3>();
     let names_twice = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
     let mut kept = Vec::with_capacity(all.len());
     kept.extend(all.iter().filter(|corners| !names_twice(corners)));
     let repeated_id_triangles = all.len() - kept.len();
-    let is_duplicate = duplicates(n, &kept);
+    let is_duplicate = duplicates(n, &kept, watch)?;
     let mut flags = is_duplicate.iter();
     kept.retain(|_| flags.next() == Some(&false));
     if n == 0 || kept.is_empty() {
@@ -87,9 +92,10 @@ pub(super) fn check_positions(positions: &[f64]) -> Result<(), MeshError> {
 }
 
 /// For every triangle whether an earlier one has the same vertices.
-fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<bool> {
+fn duplicates(n: usize, triangles: &[[u32; 3]], watch: &Watch<'_>) -> Result<Vec<bool>, Cancelled> {
     // Bucket by the smallest vertex; buckets are small, so sorting them is nearly linear.
     let smallest = |t: &[u32; 3]| t[0].min(t[1]).min(t[2]);
+    watch.tick(TRIANGLE * triangles.len() as u64)?;
     let mut offsets = offsets(n, &mut triangles.iter().map(smallest));
     let mut bucketed = vec![0_u32; triangles.len()];
     for (id, t) in triangles.iter().enumerate() {
@@ -111,6 +117,7 @@ fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<bool> {
             let middle = t[0].wrapping_add(t[1]).wrapping_add(t[2]).wrapping_sub(v as u32).wrapping_sub(largest);
             (u64::from(middle) << 32) | u64::from(largest)
         };
+        watch.tick(KEY * bucket.len() as u64)?;
         keys.clear();
         keys.extend(bucket.iter().map(|&id| key(id)));
         keys.sort_unstable();
@@ -127,5 +134,5 @@ fn duplicates(n: usize, triangles: &[[u32; 3]]) -> Vec<bool> {
             }
         }
     }
-    found
+    Ok(found)
 }

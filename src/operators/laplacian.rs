@@ -2,11 +2,16 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{assemble, assembly_bytes, from_symmetric, intrinsic_delaunay_laplacian, symmetric_bytes};
-use crate::error::MeshError;
+use super::{CORNERS, SUMMED, assemble, assembly_bytes, from_symmetric, intrinsic, symmetric_bytes};
+use crate::error::{Cancelled, MeshError};
 use crate::mesh::{TriMesh, difference, dot, norm};
 use crate::support::memory;
 use crate::support::named::named;
+use crate::support::pieces::ranges;
+use crate::support::watch::Watch;
+
+/// So many triangles are looked at between two counts of the work.
+const WATCHED: usize = 4096;
 
 /// Where the absolute weights of a row cancel to this fraction, dividing by their sum would only blow up rounding.
 const CANCELLED: f64 = 1e-12;
@@ -41,17 +46,17 @@ impl LaplacianWeights {
     }
 }
 
-/// The Laplacian with the given weights: see the function of each.
+/// The Laplacian with the given weights: see the function of each, which does the same unwatched.
 ///
 /// # Errors
-/// `ZeroWeightSum` for [`LaplacianWeights::NormalizedCotangent`]; `OutOfMemory`.
-pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<f64>, MeshError> {
+/// `ZeroWeightSum` for [`LaplacianWeights::NormalizedCotangent`]; `Cancelled`, `OutOfMemory`.
+pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     match weights {
-        LaplacianWeights::Cotangent => cotan_laplacian(mesh),
-        LaplacianWeights::IntrinsicDelaunay => intrinsic_delaunay_laplacian(mesh),
-        LaplacianWeights::MeanValue => mean_value_laplacian(mesh),
-        LaplacianWeights::NormalizedCotangent => normalized_cotan_laplacian(mesh),
-        LaplacianWeights::Uniform => uniform_laplacian(mesh),
+        LaplacianWeights::Cotangent => symmetric(mesh, cotan_weights, watch),
+        LaplacianWeights::IntrinsicDelaunay => intrinsic::laplacian(mesh, watch),
+        LaplacianWeights::MeanValue => mean_value(mesh, watch),
+        LaplacianWeights::NormalizedCotangent => normalized_cotan(mesh, watch),
+        LaplacianWeights::Uniform => symmetric(mesh, |mesh, _| Ok(vec![1.0; mesh.edge_count()]), watch),
     }
 }
 
@@ -81,7 +86,7 @@ pub fn laplacian(mesh: &TriMesh, weights: LaplacianWeights) -> Result<CscMatrix<
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
-    symmetric(mesh, cotan_weights)
+    laplacian(mesh, LaplacianWeights::Cotangent, &Watch::none())
 }
 
 /// The graph Laplacian: w_ij = 1 for every edge.
@@ -92,14 +97,18 @@ pub fn cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
 /// # Errors
 /// `OutOfMemory`.
 pub fn uniform_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
-    symmetric(mesh, |mesh| vec![1.0; mesh.edge_count()])
+    laplacian(mesh, LaplacianWeights::Uniform, &Watch::none())
 }
 
-/// The Laplacian with one weight per edge.
-fn symmetric(mesh: &TriMesh, weights: fn(&TriMesh) -> Vec<f64>) -> Result<CscMatrix<f64>, MeshError> {
+/// The Laplacian with one weight per edge, which `weights` makes.
+fn symmetric(
+    mesh: &TriMesh,
+    weights: fn(&TriMesh, &Watch<'_>) -> Result<Vec<f64>, Cancelled>,
+    watch: &Watch<'_>,
+) -> Result<CscMatrix<f64>, MeshError> {
     let (n, edges) = (mesh.vertex_count(), mesh.connectivity().edges());
     memory::ensure(8 * edges.len() as u64 + symmetric_bytes(n, edges.len()))?;
-    Ok(from_symmetric(n, edges, &weights(mesh)))
+    Ok(from_symmetric(n, edges, &weights(mesh, watch)?, watch)?)
 }
 
 /// The cotangent Laplacian with every row divided by its sum of weights.
@@ -110,12 +119,16 @@ fn symmetric(mesh: &TriMesh, weights: fn(&TriMesh) -> Vec<f64>) -> Result<CscMat
 /// # Errors
 /// `ZeroWeightSum` where positive and negative weights of a row cancel; `OutOfMemory`.
 pub fn normalized_cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    laplacian(mesh, LaplacianWeights::NormalizedCotangent, &Watch::none())
+}
+
+fn normalized_cotan(mesh: &TriMesh, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     memory::ensure(normalized_bytes(mesh))?;
-    let weights = cotan_weights(mesh);
+    let weights = cotan_weights(mesh, watch)?;
     let mut sides = Vec::with_capacity(weights.len());
     sides.extend(weights.iter().map(|&w| [w, w]));
     drop(weights);
-    normalized(mesh, sides)
+    normalized(mesh, sides, watch)
 }
 
 /// The Laplacian of Floater's mean value coordinates.
@@ -130,10 +143,17 @@ pub fn normalized_cotan_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Mesh
 /// # Errors
 /// `OutOfMemory`.
 pub fn mean_value_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    laplacian(mesh, LaplacianWeights::MeanValue, &Watch::none())
+}
+
+fn mean_value(mesh: &TriMesh, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     memory::ensure(normalized_bytes(mesh))?;
     let mut sides = vec![[0.0; 2]; mesh.edge_count()];
     let connectivity = mesh.connectivity();
     for (t, (corners, edges)) in connectivity.triangles().iter().zip(connectivity.triangle_edges()).enumerate() {
+        if t % WATCHED == 0 {
+            watch.tick(2 * CORNERS * WATCHED as u64)?;
+        }
         if mesh.is_zero_area(t as u32) {
             continue;
         }
@@ -153,14 +173,17 @@ pub fn mean_value_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError>
             }
         }
     }
-    normalized(mesh, sides)
+    normalized(mesh, sides, watch)
 }
 
 /// Half the cotangents opposite to every edge, summed.
-fn cotan_weights(mesh: &TriMesh) -> Vec<f64> {
+fn cotan_weights(mesh: &TriMesh, watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
     let mut weights = vec![0.0; mesh.edge_count()];
     let connectivity = mesh.connectivity();
     for (t, (corners, edges)) in connectivity.triangles().iter().zip(connectivity.triangle_edges()).enumerate() {
+        if t % WATCHED == 0 {
+            watch.tick(CORNERS * WATCHED as u64)?;
+        }
         if mesh.is_zero_area(t as u32) {
             continue;
         }
@@ -172,7 +195,7 @@ fn cotan_weights(mesh: &TriMesh) -> Vec<f64> {
             weights[edges[c] as usize] += dot(a, b) / four_areas;
         }
     }
-    weights
+    Ok(weights)
 }
 
 /// The bytes that [`normalized`] takes, its argument and the matrix included.
@@ -183,14 +206,17 @@ fn normalized_bytes(mesh: &TriMesh) -> u64 {
 }
 
 /// Divides the weights of every vertex by their sum.
-fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>) -> Result<CscMatrix<f64>, MeshError> {
+fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     let mut sums = vec![0.0_f64; mesh.vertex_count()];
     let mut sizes = vec![0.0_f64; mesh.vertex_count()];
     let edges = mesh.connectivity().edges();
-    for (ends, weights) in edges.iter().zip(&sides) {
-        for (&v, w) in ends.iter().zip(weights) {
-            sums[v as usize] += w;
-            sizes[v as usize] += w.abs();
+    for range in ranges(edges.len(), SUMMED, watch) {
+        let range = range?;
+        for (ends, weights) in edges[range.clone()].iter().zip(&sides[range]) {
+            for (&v, w) in ends.iter().zip(weights) {
+                sums[v as usize] += w;
+                sizes[v as usize] += w.abs();
+            }
         }
     }
     let mut diagonal = vec![0.0; sums.len()];
@@ -202,12 +228,15 @@ fn normalized(mesh: &TriMesh, mut sides: Vec<[f64; 2]>) -> Result<CscMatrix<f64>
             diagonal[v] = 1.0;
         }
     }
-    for (ends, weights) in edges.iter().zip(&mut sides) {
-        for (&v, w) in ends.iter().zip(weights) {
-            if sizes[v as usize] > 0.0 {
-                *w /= -sums[v as usize];
+    for range in ranges(edges.len(), 2 * SUMMED, watch) {
+        let range = range?;
+        for (ends, weights) in edges[range.clone()].iter().zip(&mut sides[range]) {
+            for (&v, w) in ends.iter().zip(weights) {
+                if sizes[v as usize] > 0.0 {
+                    *w /= -sums[v as usize];
+                }
             }
         }
     }
-    Ok(assemble(edges, &diagonal, &sides))
+    Ok(assemble(edges, &diagonal, &sides, watch)?)
 }

@@ -2,11 +2,13 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{INDEX, assemble, assembly_bytes};
+use super::{CORNERS, INDEX, SUMMED, assemble, assembly_bytes};
 use crate::error::MeshError;
 use crate::mesh::TriMesh;
 use crate::support::memory;
 use crate::support::named::named;
+use crate::support::pieces::ranges;
+use crate::support::watch::Watch;
 
 /// What a mass matrix is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,14 +45,14 @@ pub struct MassOptions {
     pub scale: MassScale,
 }
 
-/// The mass matrix with the given options: see the function of each kind.
+/// The mass matrix with the given options: see the function of each kind, which does the same unwatched.
 ///
 /// # Errors
-/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
-pub fn mass(mesh: &TriMesh, options: &MassOptions) -> Result<CscMatrix<f64>, MeshError> {
+/// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `Cancelled`, `OutOfMemory`.
+pub fn mass(mesh: &TriMesh, options: &MassOptions, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     match options.kind {
-        MassKind::Galerkin => galerkin_mass(mesh, options.scale),
-        MassKind::Lumped => lumped_mass(mesh, options.scale),
+        MassKind::Galerkin => galerkin(mesh, options.scale, watch),
+        MassKind::Lumped => lumped(mesh, options.scale, watch),
     }
 }
 
@@ -78,22 +80,28 @@ impl MassScale {
 /// # Errors
 /// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
 pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
+    galerkin(mesh, scale, &Watch::none())
+}
+
+fn galerkin(mesh: &TriMesh, scale: MassScale, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     let factor = scale.factor(mesh)?;
     let connectivity = mesh.connectivity();
     let (n, edges) = (mesh.vertex_count(), mesh.edge_count());
     memory::ensure(8 * n as u64 + 16 * edges as u64 + assembly_bytes(n, edges))?;
     let mut diagonal = vec![0.0; mesh.vertex_count()];
     let mut sides = vec![[0.0; 2]; mesh.edge_count()];
-    for (t, &area) in mesh.triangle_areas().iter().enumerate() {
-        let share = area * factor / 12.0;
-        for c in 0..3 {
-            diagonal[connectivity.triangles()[t][c] as usize] += 2.0 * share;
-            for side in &mut sides[connectivity.triangle_edges()[t][c] as usize] {
-                *side += share;
+    for range in ranges(mesh.triangle_count(), CORNERS, watch) {
+        for t in range? {
+            let share = mesh.triangle_areas()[t] * factor / 12.0;
+            for c in 0..3 {
+                diagonal[connectivity.triangles()[t][c] as usize] += 2.0 * share;
+                for side in &mut sides[connectivity.triangle_edges()[t][c] as usize] {
+                    *side += share;
+                }
             }
         }
     }
-    Ok(assemble(connectivity.edges(), &diagonal, &sides))
+    Ok(assemble(connectivity.edges(), &diagonal, &sides, watch)?)
 }
 
 /// The lumped mass matrix: a third of the area of the triangles at every vertex on the diagonal, the row sums of
@@ -102,6 +110,11 @@ pub fn galerkin_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>,
 /// # Errors
 /// `ZeroArea` for [`MassScale::MeanOne`] on a mesh without area; `OutOfMemory`.
 pub fn lumped_mass(mesh: &TriMesh, scale: MassScale) -> Result<CscMatrix<f64>, MeshError> {
+    lumped(mesh, scale, &Watch::none())
+}
+
+fn lumped(mesh: &TriMesh, scale: MassScale, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
+    watch.tick(SUMMED * mesh.triangle_count() as u64)?;
     let diagonal = lumped_mass_diagonal(mesh, scale)?;
     // Where each column begins, its row and its value.
     memory::ensure((2 * INDEX + 8) * diagonal.len() as u64 + INDEX)?;

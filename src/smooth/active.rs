@@ -3,13 +3,19 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::Operator;
-use crate::error::Result;
+use crate::error::{Cancelled, Result};
 use crate::mesh::{LinkKind, TriMesh};
 use crate::operators::{MassScale, lumped_mass_diagonal};
 use crate::support::memory;
+use crate::support::pieces::ranges;
+use crate::support::watch::Watch;
 
 /// The component of a vertex that is not active.
 const NONE: u32 = u32::MAX;
+
+/// The work with a vertex that is looked at, its share of the areas included, and with one whose neighbours are visited.
+const VERTEX: u64 = 40;
+const VISIT: u64 = 30;
 
 /// The active vertices, by components of L: the kernel of L has one constant for each.
 #[derive(Debug)]
@@ -24,30 +30,37 @@ pub(super) struct ActiveVertices {
 
 impl ActiveVertices {
     /// # Errors
-    /// `OutOfMemory`.
-    pub(super) fn new(mesh: &TriMesh, laplacian: &CscMatrix<f64>, operator: Operator) -> Result<Self> {
+    /// `Cancelled`, `OutOfMemory`.
+    pub(super) fn new(
+        mesh: &TriMesh,
+        laplacian: &CscMatrix<f64>,
+        operator: Operator,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         // The list, the components, and the areas or a stack that has doubled.
         memory::ensure(16 * mesh.vertex_count() as u64)?;
         let areas = lumped_mass_diagonal(mesh, MassScale::Raw)?;
         let kinds = mesh.connectivity().link_kinds();
         let mut list = Vec::with_capacity(kinds.len());
-        for (v, column) in laplacian.col_iter().enumerate() {
-            // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero. The
-            // finite-element operator divides by areas.
-            let tied = areas[v] > 0.0 || column.values().iter().any(|&x| x != 0.0);
-            let divisible = operator == Operator::Paper || areas[v].recip().is_finite();
-            if kinds[v] != LinkKind::Isolated && tied && divisible {
-                list.push(v as u32);
+        for range in ranges(kinds.len(), VERTEX, watch) {
+            for v in range? {
+                // Without area and without a weight in L nothing ties a vertex to the others: its row of the system is zero. The
+                // finite-element operator divides by areas.
+                let tied = areas[v] > 0.0 || laplacian.col(v).values().iter().any(|&x| x != 0.0);
+                let divisible = operator == Operator::Paper || areas[v].recip().is_finite();
+                if kinds[v] != LinkKind::Isolated && tied && divisible {
+                    list.push(v as u32);
+                }
             }
         }
         drop(areas);
         let mut vertices = Self { component: vec![NONE; kinds.len()], list, first: Vec::new() };
-        vertices.number(laplacian);
+        vertices.number(laplacian, watch)?;
         Ok(vertices)
     }
 
     /// Numbers the components, by their least vertices.
-    fn number(&mut self, laplacian: &CscMatrix<f64>) {
+    fn number(&mut self, laplacian: &CscMatrix<f64>, watch: &Watch<'_>) -> Result<(), Cancelled> {
         /// An active vertex without a number yet.
         const OPEN: u32 = NONE - 1;
         for &v in &self.list {
@@ -64,6 +77,7 @@ impl ActiveVertices {
             stack.push(start);
             while let Some(v) = stack.pop() {
                 let column = laplacian.col(v as usize);
+                watch.tick(VISIT + column.nnz() as u64)?;
                 for (&row, &value) in column.row_indices().iter().zip(column.values()) {
                     if value != 0.0 && self.component[row] == OPEN {
                         self.component[row] = number;
@@ -72,6 +86,7 @@ impl ActiveVertices {
                 }
             }
         }
+        Ok(())
     }
 
     /// The active vertices, ascending.

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::missing::Gaps;
 use crate::error::{FieldError, OptionError, Result};
 use crate::field::{ValueRange, value_range};
 use crate::mesh::{LinkKind, TriMesh};
@@ -56,9 +55,11 @@ pub(super) struct Channels<'a> {
 }
 
 impl<'a> Channels<'a> {
+    /// Checks the values. `missing` are the vertices that have none, ascending.
+    ///
     /// # Errors
     /// `InvalidOption` for no channels at all; `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`.
-    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize, gaps: Option<&Gaps<'_>>) -> Result<Self> {
+    pub(super) fn new(mesh: &TriMesh, values: &'a [f64], channels: usize, missing: Arc<[u32]>) -> Result<Self> {
         let n = mesh.vertex_count();
         if channels == 0 {
             return Err(OptionError::invalid("channels", "a positive integer").into());
@@ -68,7 +69,6 @@ impl<'a> Channels<'a> {
             let expected = n.saturating_mul(channels);
             return Err(FieldError::length_mismatch(expected, values.len(), mesh.triangle_count()).into());
         }
-        let missing = gaps.map_or_else(|| [].into(), |gaps| Arc::clone(&gaps.missing));
         let mut all = Self { interleaved: values, ranges: Vec::new(), missing };
         all.ranges = (0..channels).map(|c| all.range(mesh, c, channels)).collect::<Result<_>>()?;
         Ok(all)

@@ -1,12 +1,14 @@
 //! Which vertices are constrained, and what becomes of the components that have none.
 
+use std::sync::Arc;
+
 use super::active::ActiveVertices;
 use super::channels::{Channel, Channels};
 use super::input::Input;
-use super::missing::Gaps;
+use super::missing::{Gaps, Holes, KnownPart, missing_vertices};
 use super::schedule::Stages;
 use crate::error::{FieldError, MeshError, Result};
-use crate::field::{Features, ScalarField, feature_points, with_stars};
+use crate::field::{Features, Missing, ScalarField, feature_points, with_stars};
 use crate::mesh::TriMesh;
 use crate::support::memory;
 use crate::support::named::named;
@@ -44,8 +46,12 @@ impl Default for Constraints<'_> {
     }
 }
 
-/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them. Vertices
-/// at which the value of some channel is missing are none of them, and rules look at the triangles that have three values.
+/// The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
+///
+/// # Missing values
+/// They are the vertices that smoothing constrains with the same `missing`. Vertices at which the value of some channel is missing are
+/// none of them, and rules look at the triangles that have three values. Stars are those of these triangles with [`Missing::Omit`],
+/// of the whole mesh with [`Missing::Fill`].
 ///
 /// # Errors
 /// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, `IndexOutOfBounds`, `InvalidOption`; where values are missing `MissingValue` and
@@ -54,10 +60,38 @@ pub fn constrained_vertices(
     mesh: &TriMesh,
     values: &[f64],
     channels: usize,
+    missing: Missing,
     constraints: &Constraints<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<u32>> {
-    Ok(ConstraintSet::found(mesh, &Channels::new(mesh, values, channels, None)?, None, constraints, watch)?.vertices)
+    let gone = match missing {
+        Missing::Error => Vec::new(),
+        Missing::Omit | Missing::Fill => missing_vertices(mesh, values, channels)?,
+    };
+    if gone.is_empty() {
+        let channels = Channels::new(mesh, values, channels, Arc::default())?;
+        return Ok(ConstraintSet::found(mesh, &channels, None, constraints, watch)?.vertices);
+    }
+    let known = KnownPart::without(mesh, &gone, watch)?;
+    if missing == Missing::Fill {
+        let holes = Holes { missing: &gone, known: known.as_ref() };
+        let channels = Channels::new(mesh, values, channels, gone.as_slice().into())?;
+        return Ok(ConstraintSet::found(mesh, &channels, Some(holes), constraints, watch)?.vertices);
+    }
+    let known = known.ok_or(MeshError::EmptyMesh { vertices: 0, triangles: 0 })?;
+    let listed = match constraints.features {
+        Features::Vertices(vertices) => Some(known.find(vertices, mesh.vertex_count())?),
+        _ => None,
+    };
+    let features = listed.as_deref().map_or(constraints.features, Features::Vertices);
+    // The values of the part.
+    memory::ensure(8 * (known.vertices.len() * channels) as u64)?;
+    let of_part = known.gather(values, channels);
+    let of_part = Channels::new(&known.mesh, &of_part, channels, Arc::default())?;
+    let constraints = Constraints { features, ..*constraints };
+    let mut vertices = ConstraintSet::found(&known.mesh, &of_part, None, &constraints, watch)?.vertices;
+    vertices.iter_mut().for_each(|v| *v = known.vertices[*v as usize]);
+    Ok(vertices)
 }
 
 impl Constraints<'_> {
@@ -82,27 +116,33 @@ impl ConstraintSet {
         if constraints.is_rule() {
             stages.begin(Phase::Field, 0)?;
         }
-        Self::found(&input.operators.mesh, &input.channels, input.gaps.as_ref(), constraints, stages.watch)
+        Self::found(
+            &input.operators.mesh,
+            &input.channels,
+            input.gaps.as_ref().map(Gaps::holes),
+            constraints,
+            stages.watch,
+        )
     }
 
     fn found(
         mesh: &TriMesh,
         channels: &Channels<'_>,
-        gaps: Option<&Gaps<'_>>,
+        holes: Option<Holes<'_>>,
         constraints: &Constraints<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self> {
         // The values of a channel, also of the part that has values; the lists and marks that become the set.
         memory::ensure(40 * mesh.vertex_count() as u64)?;
         let mut features = Vec::new();
-        match (&constraints.features, gaps) {
+        match (&constraints.features, holes) {
             (Features::Vertices(vertices), _) => {
                 let count = mesh.vertex_count();
                 for &vertex in *vertices {
                     if vertex as usize >= count {
                         return Err(FieldError::IndexOutOfBounds { index: vertex, vertices: count }.into());
                     }
-                    if gaps.is_some_and(|gaps| !gaps.has_value(vertex)) {
+                    if holes.is_some_and(|holes| !holes.has_value(vertex)) {
                         return Err(FieldError::MissingValue { vertex }.into());
                     }
                 }
@@ -114,13 +154,13 @@ impl ConstraintSet {
                     features.extend(feature_points(&[ScalarField::new(mesh, &values)?], rule, watch)?);
                 }
             }
-            (rule, Some(gaps)) => {
-                let Some(known) = gaps.known else {
+            (rule, Some(holes)) => {
+                let Some(known) = holes.known else {
                     return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into());
                 };
                 for c in 0..channels.count() {
                     let values = known.gather(&channels.values(c), 1);
-                    let field = ScalarField::new(&known.operators.mesh, &values)?;
+                    let field = ScalarField::new(&known.mesh, &values)?;
                     let found = feature_points(&[field], rule, watch)?;
                     features.extend(found.into_iter().map(|v| known.vertices[v as usize]));
                 }
@@ -130,8 +170,8 @@ impl ConstraintSet {
         features.dedup();
         let mut vertices =
             if constraints.stars { with_stars(mesh.connectivity(), &features) } else { features.clone() };
-        if let Some(gaps) = gaps {
-            vertices.retain(|&v| gaps.has_value(v));
+        if let Some(holes) = holes {
+            vertices.retain(|&v| holes.has_value(v));
         }
         Ok(Self { features, vertices })
     }

@@ -7,8 +7,12 @@ use nalgebra_sparse::CscMatrix;
 use super::Metric;
 use crate::error::Result;
 use crate::mesh::TriMesh;
-use crate::operators::{MassScale, galerkin_mass, lumped_mass_diagonal};
+use crate::operators::{MassKind, MassOptions, MassScale, lumped_mass_diagonal, mass};
 use crate::solve::{submatrix, transposed_product};
+use crate::support::watch::Watch;
+
+/// The work with an entry of a matrix that is copied.
+const COPIED: u64 = 10;
 
 /// What B is made from. Equal ones have equal matrices, so that this says what a factor belongs to.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,13 +47,16 @@ impl Norm {
 
 impl DataTerm {
     /// B on the unknowns, which ascend.
-    pub(super) fn matrix(&self, mesh: &TriMesh, unknowns: &[u32]) -> Result<Mass> {
+    pub(super) fn matrix(&self, mesh: &TriMesh, unknowns: &[u32], watch: &Watch<'_>) -> Result<Mass> {
         let is_missing = |v: &u32| self.missing.binary_search(v).is_ok();
-        let mass = match &self.norm {
+        let mut diagonal = match &self.norm {
             Norm::Identity if self.missing.is_empty() => return Ok(Mass::Identity),
             Norm::Identity => vec![1.0; unknowns.len()],
             Norm::Galerkin(scale) => {
-                let mut matrix = submatrix(&galerkin_mass(mesh, *scale)?, unknowns);
+                let whole = mass(mesh, &MassOptions { kind: MassKind::Galerkin, scale: *scale }, watch)?;
+                watch.tick(COPIED * whole.nnz() as u64)?;
+                let mut matrix = submatrix(&whole, unknowns);
+                drop(whole);
                 if self.missing.is_empty() {
                     return Ok(Mass::Matrix(matrix));
                 }
@@ -73,7 +80,6 @@ impl DataTerm {
                 diagonal
             }
         };
-        let mut diagonal = mass;
         if !self.missing.is_empty() {
             for (v, entry) in unknowns.iter().zip(&mut diagonal) {
                 *entry = if is_missing(v) { 0.0 } else { *entry };

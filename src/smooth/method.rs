@@ -15,11 +15,11 @@ use super::report::Smoothed;
 use super::schedule::Stages;
 use super::systems::Systems;
 use super::{Constraints, SmootherOptions};
-use crate::error::{Error, MeshError, OptionError, Result};
+use crate::error::{MeshError, OptionError, Result};
 use crate::field::{Features, Missing};
 use crate::mesh::TriMesh;
 use crate::support::memory;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 
 /// A method of smoothing with its options, for [`Smoother::apply`](super::Smoother::apply).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,17 +170,20 @@ impl Masked {
     }
 
     /// That of these missing vertices.
-    fn get(&mut self, mesh: &TriMesh, missing: &[u32], options: SmootherOptions) -> Result<&mut Mask> {
+    fn get(
+        &mut self,
+        mesh: &TriMesh,
+        missing: &[u32],
+        options: SmootherOptions,
+        watch: &Watch<'_>,
+    ) -> Result<&mut Mask> {
         if self.0.as_ref().is_some_and(|mask| *mask.missing != *missing) {
             self.0 = None;
         }
         match &mut self.0 {
             Some(mask) => Ok(mask),
             none => {
-                let part = match Part::without(mesh, missing, options) {
-                    Err(Error::Mesh(MeshError::EmptyMesh { .. })) => None,
-                    part => Some(Arc::new(part?)),
-                };
+                let part = Part::without(mesh, missing, options, watch)?.map(Arc::new);
                 Ok(none.insert(Mask { missing: missing.into(), part, systems: Systems::default() }))
             }
         }
@@ -198,12 +201,12 @@ pub(super) fn apply(
 ) -> Result<Smoothed> {
     let start =
         &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| method.start(input, systems, watch);
-    let (smoothed, part) = on_input(operators, systems, masked, values, method, start)?;
+    let (smoothed, part) = on_input(operators, systems, masked, values, method, watch, start)?;
     Ok(match part {
         None => smoothed,
         Some(part) => {
             let mut whole = values.to_vec();
-            part.scatter(&smoothed.values, method.channels(), &mut whole);
+            part.known.scatter(&smoothed.values, method.channels(), &mut whole);
             Smoothed { values: whole, reports: smoothed.reports }
         }
     })
@@ -217,9 +220,11 @@ pub(super) fn on_input<T>(
     masked: &mut Masked,
     values: &[f64],
     method: &Method<'_>,
+    watch: &Watch<'_>,
     work: &mut dyn FnMut(&Input<'_>, &mut Systems, &Method<'_>) -> Result<T>,
 ) -> Result<(T, Option<Arc<Part>>)> {
     method.check(operators.options)?;
+    watch.prepare(Phase::Analysis);
     let (mesh, channels) = (&operators.mesh, method.channels());
     // The values of the result, and those of the part that has values; lists and marks of vertices.
     memory::ensure((16 * channels.min(values.len()) + 16) as u64 * mesh.vertex_count() as u64)?;
@@ -228,26 +233,27 @@ pub(super) fn on_input<T>(
         Missing::Omit | Missing::Fill => missing_vertices(mesh, values, channels)?,
     };
     if missing.is_empty() {
-        let input = Input { operators, channels: Channels::new(mesh, values, channels, None)?, gaps: None };
+        let input = Input { operators, channels: Channels::new(mesh, values, channels, Arc::default())?, gaps: None };
         return Ok((work(&input, systems, method)?, None));
     }
-    let mask = masked.get(mesh, &missing, operators.options)?;
+    let mask = masked.get(mesh, &missing, operators.options, watch)?;
     if method.missing() == Missing::Fill {
-        let gaps = Gaps { missing: Arc::clone(&mask.missing), known: mask.part.as_ref() };
-        let channels = Channels::new(mesh, values, channels, Some(&gaps))?;
+        let gaps = Gaps { missing: Arc::clone(&mask.missing), part: mask.part.as_ref() };
+        let channels = Channels::new(mesh, values, channels, Arc::clone(&gaps.missing))?;
         return Ok((work(&Input { operators, channels, gaps: Some(gaps) }, systems, method)?, None));
     }
     let Some(part) = &mask.part else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
+    let Part { known, operators } = &**part;
     let listed = match method.constraints() {
         Some(Constraints { features: Features::Vertices(vertices), .. }) => {
-            Some(part.find(vertices, mesh.vertex_count())?)
+            Some(known.find(vertices, mesh.vertex_count())?)
         }
         _ => None,
     };
     let method = listed.as_ref().map_or(*method, |vertices| method.with_features(Features::Vertices(vertices)));
-    let of_part = part.gather(values, channels);
-    let channels_of_part = Channels::new(&part.operators.mesh, &of_part, channels, None)?;
-    let input = Input { operators: &part.operators, channels: channels_of_part, gaps: None };
-    let done = work(&input, &mut mask.systems, &method).map_err(|error| to_whole(&part.vertices, error))?;
+    let of_part = known.gather(values, channels);
+    let channels_of_part = Channels::new(&known.mesh, &of_part, channels, Arc::default())?;
+    let input = Input { operators, channels: channels_of_part, gaps: None };
+    let done = work(&input, &mut mask.systems, &method).map_err(|error| to_whole(&known.vertices, error))?;
     Ok((done, Some(Arc::clone(part))))
 }

@@ -6,12 +6,21 @@ use super::operators::Operators;
 use crate::error::{Error, FieldError, MeshError, Result, SmoothError, SolveError};
 use crate::mesh::{Submesh, TriMesh};
 use crate::smooth::SmootherOptions;
+use crate::support::memory;
+use crate::support::watch::Watch;
 
-/// The triangles whose three vertices have values, as a mesh of its own with its operators.
+/// The triangles whose three vertices have values, as a mesh of its own.
 #[derive(Debug)]
-pub(super) struct Part {
+pub(super) struct KnownPart {
     /// For every vertex of the part its id in the whole mesh; ascending.
     pub(super) vertices: Vec<u32>,
+    pub(super) mesh: TriMesh,
+}
+
+/// That part with its operators.
+#[derive(Debug)]
+pub(super) struct Part {
+    pub(super) known: KnownPart,
     pub(super) operators: Arc<Operators>,
 }
 
@@ -21,10 +30,30 @@ pub(super) struct Gaps<'a> {
     /// Those vertices, ascending.
     pub(super) missing: Arc<[u32]>,
     /// The part of the mesh with values; nothing where no triangle has three.
-    pub(super) known: Option<&'a Arc<Part>>,
+    pub(super) part: Option<&'a Arc<Part>>,
+}
+
+/// What the search for constraints has to know of gaps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Holes<'a> {
+    /// The vertices without a value, ascending.
+    pub(super) missing: &'a [u32],
+    /// The part of the mesh with values; nothing where no triangle has three.
+    pub(super) known: Option<&'a KnownPart>,
 }
 
 impl Gaps<'_> {
+    /// Whether a vertex has a value.
+    pub(super) fn has_value(&self, vertex: u32) -> bool {
+        self.holes().has_value(vertex)
+    }
+
+    pub(super) fn holes(&self) -> Holes<'_> {
+        Holes { missing: &self.missing, known: self.part.map(|part| &part.known) }
+    }
+}
+
+impl Holes<'_> {
     /// Whether a vertex has a value.
     pub(super) fn has_value(&self, vertex: u32) -> bool {
         self.missing.binary_search(&vertex).is_err()
@@ -55,16 +84,37 @@ pub(super) fn missing_vertices(mesh: &TriMesh, values: &[f64], channels: usize) 
 }
 
 impl Part {
-    /// The part of a mesh without some vertices, which ascend.
+    /// The part of a mesh without some vertices, which ascend; nothing where no triangle is left.
     ///
     /// # Errors
-    /// `EmptyMesh` where no triangle is left; those of [`Operators::new`].
-    pub(super) fn without(mesh: &TriMesh, missing: &[u32], options: SmootherOptions) -> Result<Self> {
+    /// Those of [`Operators::new`].
+    pub(super) fn without(
+        mesh: &TriMesh,
+        missing: &[u32],
+        options: SmootherOptions,
+        watch: &Watch<'_>,
+    ) -> Result<Option<Self>> {
+        let Some(known) = KnownPart::without(mesh, missing, watch)? else { return Ok(None) };
+        let operators =
+            Operators::new(&known.mesh, options, watch).map_err(|error| to_whole(&known.vertices, error))?;
+        Ok(Some(Self { known, operators: Arc::new(operators) }))
+    }
+}
+
+impl KnownPart {
+    /// The part of a mesh without some vertices, which ascend; nothing where no triangle is left.
+    ///
+    /// # Errors
+    /// `Cancelled`, `OutOfMemory`.
+    pub(super) fn without(mesh: &TriMesh, missing: &[u32], watch: &Watch<'_>) -> Result<Option<Self>> {
+        memory::ensure(mesh.vertex_count() as u64)?;
         let mut has = vec![true; mesh.vertex_count()];
         missing.iter().for_each(|&v| has[v as usize] = false);
-        let Submesh { mesh: part, vertices, .. } = mesh.submesh(&|v| has[v as usize])?;
-        let operators = Operators::new(&part, options).map_err(|error| to_whole(&vertices, error))?;
-        Ok(Self { vertices, operators: Arc::new(operators) })
+        match mesh.submesh_watched(&|v| has[v as usize], watch) {
+            Ok(Submesh { mesh, vertices, .. }) => Ok(Some(Self { vertices, mesh })),
+            Err(MeshError::EmptyMesh { .. }) => Ok(None),
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// The values of the part among those of the whole mesh, `channels` for each vertex.

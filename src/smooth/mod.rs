@@ -78,7 +78,17 @@ impl Smoother {
     /// `ZeroWeightSum` for normalised weights; `InapplicableOption` for the finite-element operator with weights other than
     /// cotangent, for which it means nothing.
     pub fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
-        let operators = Arc::new(Operators::new(mesh, options)?);
+        Self::watched(mesh, options, &Watch::none())
+    }
+
+    /// The same as [`Smoother::new`], watched. The watcher hears of the phase `Analysis`, of which nothing is done yet: how far the work
+    /// is, is told by what the smoother is made for.
+    ///
+    /// # Errors
+    /// Those of [`Smoother::new`]; `Cancelled`.
+    pub fn watched(mesh: &TriMesh, options: SmootherOptions, watch: &Watch<'_>) -> Result<Self> {
+        watch.prepare(Phase::Analysis);
+        let operators = Arc::new(Operators::new(mesh, options, watch)?);
         Ok(Self { operators, systems: Systems::default(), masked: Masked::default() })
     }
 

@@ -7,6 +7,7 @@ use super::{Operator, SmootherOptions};
 use crate::error::{OptionError, Result};
 use crate::mesh::TriMesh;
 use crate::operators::{self, LaplacianWeights};
+use crate::support::watch::Watch;
 
 /// A mesh with its Laplacian and the vertices that this acts on.
 #[derive(Debug)]
@@ -21,14 +22,14 @@ impl Operators {
     /// Assembles the Laplacian. The mesh is shared, not copied.
     ///
     /// # Errors
-    /// `ZeroWeightSum`; `InapplicableOption` for the finite-element operator with weights other than cotangent.
-    pub(super) fn new(mesh: &TriMesh, options: SmootherOptions) -> Result<Self> {
+    /// `ZeroWeightSum`; `InapplicableOption` for the finite-element operator with weights other than cotangent; `Cancelled`.
+    pub(super) fn new(mesh: &TriMesh, options: SmootherOptions, watch: &Watch<'_>) -> Result<Self> {
         if options.operator == Operator::Fem && options.weights != LaplacianWeights::Cotangent {
             let reason = "the finite-element operator has cotangent weights".to_owned();
             return Err(OptionError::InapplicableOption { option: "weights".to_owned(), reason }.into());
         }
-        let laplacian = operators::laplacian(mesh, options.weights)?;
-        let active = ActiveVertices::new(mesh, &laplacian, options.operator)?;
+        let laplacian = operators::laplacian(mesh, options.weights, watch)?;
+        let active = ActiveVertices::new(mesh, &laplacian, options.operator, watch)?;
         Ok(Self { mesh: mesh.clone(), options, laplacian, active })
     }
 

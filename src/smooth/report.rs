@@ -3,20 +3,19 @@
 use nalgebra_sparse::CscMatrix;
 
 use super::channels::Channel;
+use super::choice::ChosenEpsilon;
 use super::constraints::ConstraintSet;
 use super::input::Input;
 use super::maximum_principle::MaximumPrinciple;
 use super::missing::Part;
-use super::choice::ChosenEpsilon;
 use super::names::{Equation, MethodName, Route, UsedPrecision};
 use super::operators::Operators;
 use super::routes::difference;
 use super::system::{Solution, Solved};
 use super::unconstrained::UnconstrainedComponents;
-use crate::error::{FieldError, Result};
+use crate::error::{FieldError, MeshError, Result};
 use crate::field::{
-    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, ScalarField, VertexOrder,
-    critical_points,
+    CriticalCounts, CriticalKind, CriticalPoint, CriticalPoints, DeltaOptions, ScalarField, critical_points,
 };
 use crate::solve::{norm, product};
 use crate::support::watch::Watch;
@@ -109,12 +108,16 @@ pub struct SmoothnessEnergies {
     pub laplacian_norm: f64,
 }
 
-/// Measures how smooth values are, as they are given: nothing is normalised.
+/// Measures how smooth a field is, its values as they are given: nothing is normalised. Where values are missing, the Laplacian is
+/// that of the part of the mesh that has values: [`ScalarField::mesh`].
 ///
 /// # Errors
-/// `LengthMismatch`, `NonFiniteValue`, `RangeOverflow`, the last also where the result overflows.
-pub fn smoothness(laplacian: &CscMatrix<f64>, values: &[f64]) -> Result<SmoothnessEnergies, FieldError> {
-    VertexOrder::new(values, laplacian.ncols())?;
+/// `LengthMismatch` for a Laplacian of another size; `RangeOverflow` where the result overflows.
+pub fn smoothness(laplacian: &CscMatrix<f64>, field: &ScalarField<'_>) -> Result<SmoothnessEnergies, FieldError> {
+    let values = field.values();
+    if values.len() != laplacian.ncols() {
+        return Err(FieldError::length_mismatch(laplacian.ncols(), values.len(), 0));
+    }
     let energies = energies(laplacian, values);
     if energies.sobolev.is_finite() && energies.laplacian_norm.is_finite() {
         Ok(energies)
@@ -172,10 +175,10 @@ impl Side {
 
     /// On the part of a mesh that has values; vertices are those of the whole.
     fn of_part(part: &Part, values: &[f64], normalized: &[f64], watch: &Watch<'_>) -> Result<Self> {
-        let (values, normalized) = (part.gather(values, 1), part.gather(normalized, 1));
+        let (values, normalized) = (part.known.gather(values, 1), part.known.gather(normalized, 1));
         let mut side = Self::new(&part.operators, &values, &normalized, watch)?;
         for point in &mut side.points.points {
-            point.vertex = part.vertices[point.vertex as usize];
+            point.vertex = part.known.vertices[point.vertex as usize];
         }
         Ok(side)
     }
@@ -205,7 +208,7 @@ pub(super) fn measure(
         None => Side::new(operators, &channel.values, f, watch)?,
         Some(gaps) => {
             gaps.missing.iter().for_each(|&v| difference[v as usize] = 0.0);
-            match gaps.known {
+            match gaps.part {
                 Some(part) => Side::of_part(part, &channel.values, f, watch)?,
                 None => Side::empty(),
             }
@@ -218,8 +221,10 @@ pub(super) fn measure(
     let after = if unfilled.is_empty() {
         Side::new(operators, smoothed, x, watch)?
     } else {
-        let part = Part::without(&operators.mesh, &unfilled, operators.options)?;
-        Side::of_part(&part, smoothed, x, watch)?
+        match Part::without(&operators.mesh, &unfilled, operators.options, watch)? {
+            Some(part) => Side::of_part(&part, smoothed, x, watch)?,
+            None => return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()),
+        }
     };
     let kept = about.constraints.as_ref().map(|set| Kept::new(set, &before.points, &after.points));
     let l2 = norm(&difference);

@@ -6,6 +6,7 @@ use super::data_term::DataTerm;
 use super::operators::Operators;
 use super::system::{Energy, ReducedSystem, RegularizedSystem};
 use crate::error::Result;
+use crate::support::watch::Watch;
 
 /// The last system of each kind, with its analyses. They are borrowed apart from the [`Operators`] that they are made from.
 #[derive(Debug, Default)]
@@ -26,6 +27,7 @@ impl Systems {
         operators: &Operators,
         unknowns: &[u32],
         term: &Arc<DataTerm>,
+        watch: &Watch<'_>,
     ) -> Result<&mut RegularizedSystem> {
         self.reduced.iter_mut().for_each(ReducedSystem::drop_factor);
         let has_all = unknowns.len() == operators.active.list().len();
@@ -37,10 +39,10 @@ impl Systems {
         }
         match slot {
             Some(system) => {
-                system.set_term(operators, term)?;
+                system.set_term(operators, term, watch)?;
                 Ok(system)
             }
-            none => Ok(none.insert(RegularizedSystem::new(operators, unknowns, term)?)),
+            none => Ok(none.insert(RegularizedSystem::new(operators, unknowns, term, watch)?)),
         }
     }
 
@@ -55,6 +57,7 @@ impl Systems {
         operators: &Operators,
         energy: Energy,
         free: &[u32],
+        watch: &Watch<'_>,
     ) -> Result<&mut ReducedSystem> {
         self.all.iter_mut().for_each(RegularizedSystem::drop_factor);
         self.partial.iter_mut().for_each(RegularizedSystem::drop_factor);
@@ -63,7 +66,7 @@ impl Systems {
         }
         match &mut self.reduced {
             Some(system) => Ok(system),
-            none => Ok(none.insert(ReducedSystem::new(operators, energy, free)?)),
+            none => Ok(none.insert(ReducedSystem::new(operators, energy, free, watch)?)),
         }
     }
 }

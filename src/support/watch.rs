@@ -10,7 +10,7 @@ use crate::support::named::named;
 /// A step of the work, for progress displays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// Ordering and analysing the pattern of a matrix, once that is assembled.
+    /// Assembling a matrix, ordering it and analysing its pattern.
     Analysis,
     /// Computing a numeric factor.
     Factorization,
@@ -62,6 +62,8 @@ struct State<'a> {
     watcher: Option<Watcher<'a>>,
     stopped: bool,
     phase: Option<Phase>,
+    /// What is told where work is not divided into steps yet.
+    preparation: Phase,
     /// The part of the whole that the work at hand is.
     part: Range<f64>,
     /// The ticks that the work at hand is expected to take, and those done.
@@ -106,6 +108,7 @@ impl<'a> Watch<'a> {
             watcher,
             stopped: false,
             phase: None,
+            preparation: Phase::Field,
             part: 0.0..1.0,
             expected: 0.0,
             done: 0.0,
@@ -127,6 +130,11 @@ impl<'a> Watch<'a> {
             return Ok(());
         }
         state.tell()
+    }
+
+    /// Names what is done until work is divided into steps: nothing of these is done then.
+    pub(crate) fn prepare(&self, phase: Phase) {
+        self.state.borrow_mut().preparation = phase;
     }
 
     /// Divides the work at hand into steps with these shares of its time. A plan within a plan divides that one's current step.
@@ -155,14 +163,21 @@ impl State<'_> {
     #[cold]
     #[inline(never)]
     fn tell(&mut self) -> Result<(), Cancelled> {
+        if self.stopped {
+            return Err(Cancelled);
+        }
         self.account();
         self.told = self.told.max(self.fraction());
-        let progress = Progress { phase: self.phase.unwrap_or(Phase::Field), fraction: self.told };
+        let progress = Progress { phase: self.phase.unwrap_or(self.preparation), fraction: self.told };
         if let Some(watcher) = &mut self.watcher {
-            // Work that is stopped once stays so: callers that try another way than the one that failed hear it again.
-            self.stopped |= watcher(progress).is_break();
+            self.stopped = watcher(progress).is_break();
         }
-        if self.stopped { Err(Cancelled) } else { Ok(()) }
+        if !self.stopped {
+            return Ok(());
+        }
+        // Work that is stopped once stays so: whoever goes on, or tries another way than the one that failed, hears it at the next tick.
+        self.untold = PATIENCE;
+        Err(Cancelled)
     }
 }
 

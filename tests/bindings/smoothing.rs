@@ -121,7 +121,15 @@ fn constraints_are_those_of_rust() {
         ("{ from: 'kMeans', clusters: 7, seed: 3 }", Features::KMeans { clusters: 7, seed: 3 }, true),
     ] {
         let constraints = Constraints { features, stars, unconstrained: Unconstrained::Error };
-        let wanted = constrained_vertices(&mesh, &f, 1, &constraints, &morse_smooth::Watch::none()).expect("vertices");
+        let wanted = constrained_vertices(
+            &mesh,
+            &f,
+            1,
+            morse_smooth::field::Missing::Error,
+            &constraints,
+            &morse_smooth::Watch::none(),
+        )
+        .expect("vertices");
         let found = given.constrained_vertices(&array(&f), &js(text), &NONE).ok().expect("vertices");
         assert_eq!(found.unchecked_into::<Uint32Array>().to_vec(), wanted, "{text}");
 

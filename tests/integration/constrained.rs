@@ -43,7 +43,11 @@ fn fit(
 fn sets(mesh: &TriMesh, f: &[f64], reference: &Reference) -> [Vec<u32>; 2] {
     let features = Features::CriticalPoints(DeltaOptions { delta: 0.3, ..DeltaOptions::default() });
     let stars = Constraints { features, stars: true, unconstrained: Unconstrained::Keep };
-    [sparse_set(reference, 29), constrained_vertices(mesh, f, 1, &stars, &morse_smooth::Watch::none()).unwrap()]
+    [
+        sparse_set(reference, 29),
+        constrained_vertices(mesh, f, 1, morse_smooth::field::Missing::Error, &stars, &morse_smooth::Watch::none())
+            .unwrap(),
+    ]
 }
 
 #[test]

@@ -84,10 +84,25 @@ fn critical_points_with_stars_keep_their_types() {
                         let constraints = Constraints { features, stars, unconstrained: Unconstrained::Keep };
                         let found = interpolate(&mut smoother, &f, constraints, energy);
                         let report = &found.reports[0];
-                        let set =
-                            constrained_vertices(&mesh, &f, 1, &constraints, &morse_smooth::Watch::none()).unwrap();
+                        let set = constrained_vertices(
+                            &mesh,
+                            &f,
+                            1,
+                            morse_smooth::field::Missing::Error,
+                            &constraints,
+                            &morse_smooth::Watch::none(),
+                        )
+                        .unwrap();
                         let plain = Constraints { stars: false, ..constraints };
-                        let chosen = constrained_vertices(&mesh, &f, 1, &plain, &morse_smooth::Watch::none()).unwrap();
+                        let chosen = constrained_vertices(
+                            &mesh,
+                            &f,
+                            1,
+                            morse_smooth::field::Missing::Error,
+                            &plain,
+                            &morse_smooth::Watch::none(),
+                        )
+                        .unwrap();
                         for &v in &set {
                             assert_eq!(found.values[v as usize].to_bits(), f[v as usize].to_bits(), "{name} {v}");
                         }

@@ -233,7 +233,15 @@ fn several_channels_have_the_constraints_of_all() {
             }
             let union: Vec<u32> = union.into_iter().collect();
             assert_eq!(
-                constrained_vertices(&mesh, &interleaved, 6, &constraints, &morse_smooth::Watch::none()).unwrap(),
+                constrained_vertices(
+                    &mesh,
+                    &interleaved,
+                    6,
+                    morse_smooth::field::Missing::Error,
+                    &constraints,
+                    &morse_smooth::Watch::none()
+                )
+                .unwrap(),
                 union
             );
             for method in METHODS {
@@ -292,14 +300,18 @@ fn weights_belong_to_vertices_as_they_are_listed() {
     assert_eq!(isolated.values, plain.values);
     // By a rule, or with stars: one for each constrained vertex, ascending.
     let stars = Constraints { stars: true, ..keep(&[70, 8]) };
-    let vertices = constrained_vertices(&mesh, &f, 1, &stars, &morse_smooth::Watch::none()).unwrap();
+    let vertices =
+        constrained_vertices(&mesh, &f, 1, morse_smooth::field::Missing::Error, &stars, &morse_smooth::Watch::none())
+            .unwrap();
     let weights: Vec<f64> = (1..=vertices.len()).map(|i| i as f64).collect();
     let mut pull = vec![0.0; f.len()];
     vertices.iter().zip(&weights).for_each(|(&v, w)| pull[v as usize] = *w);
     let found = fit(&mut smoother, &f, stars, &weights).unwrap();
     assert!(error(&f, &found.values, &reference.least_squares(&f, &pull, 0.7)) < 1e-12);
     let rule = Constraints { features: Features::KMeans { clusters: 4, seed: 1 }, ..keep(&[]) };
-    let vertices = constrained_vertices(&mesh, &f, 1, &rule, &morse_smooth::Watch::none()).unwrap();
+    let vertices =
+        constrained_vertices(&mesh, &f, 1, morse_smooth::field::Missing::Error, &rule, &morse_smooth::Watch::none())
+            .unwrap();
     let weights: Vec<f64> = (1..=vertices.len()).map(|i| i as f64).collect();
     let by_rule = fit(&mut smoother, &f, rule, &weights).unwrap();
     assert_eq!(by_rule.values, fit(&mut smoother, &f, keep(&vertices), &weights).unwrap().values);

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use morse_smooth::Error;
 use morse_smooth::field::{
-    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, Threshold, value_range,
+    CriticalCounts, CriticalKind, DeltaOptions, Features, Keep, LinkReading, ScalarField, Threshold, value_range,
 };
 use morse_smooth::io::{FieldReadOptions, read_field};
 use morse_smooth::load::{LoadOptions, LoadedMesh, load};
@@ -166,7 +166,8 @@ fn check_field(check: &mut Checker, context: &str, smoother: &Smoother, values: 
         }
     }
     let normalized: Vec<f64> = values.iter().map(|v| (v - range.min) / (range.max - range.min)).collect();
-    let energies = smoothness(smoother.laplacian(), &normalized).expect("a field");
+    let energies =
+        smoothness(smoother.laplacian(), &ScalarField::new(mesh, &normalized).expect("a field")).expect("a field");
     check.close(&format!("{context} Sobolev"), energies.sobolev, number(&expected["sobolev"]), 1e-9);
     check.close(&format!("{context} ‖Lf‖"), energies.laplacian_norm, number(&expected["laplacianNorm"]), 1e-9);
 }
@@ -301,6 +302,7 @@ fn check_smoothing(
             smoother.mesh(),
             f,
             1,
+            morse_smooth::field::Missing::Error,
             &Constraints { stars: false, ..constraints(options) },
             &morse_smooth::Watch::none(),
         );

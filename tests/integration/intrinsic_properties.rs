@@ -202,7 +202,8 @@ fn it_smooths() {
             continue;
         }
         let (f, n) = (noise(mesh.vertex_count(), 5), mesh.vertex_count());
-        let matrix = dense(&laplacian(&mesh, LaplacianWeights::IntrinsicDelaunay).unwrap());
+        let matrix =
+            dense(&laplacian(&mesh, LaplacianWeights::IntrinsicDelaunay, &morse_smooth::Watch::none()).unwrap());
         for metric in [Metric::Identity, Metric::Mass] {
             let mass = match metric {
                 Metric::Mass => dense(&galerkin_mass(&mesh, Default::default()).unwrap()),

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use morse_smooth::Watch;
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{
     LaplacianWeights, MassScale, cotan_laplacian, galerkin_mass, laplacian, lumped_mass, lumped_mass_diagonal,
@@ -128,7 +129,7 @@ fn with_line() -> TriMesh {
 fn entries_follow_the_definitions() {
     for (name, mesh) in meshes() {
         for weights in ALL_WEIGHTS {
-            let found = dense(&laplacian(&mesh, weights).unwrap());
+            let found = dense(&laplacian(&mesh, weights, &Watch::none()).unwrap());
             assert_close(name, &found, &reference_laplacian(&mesh, weights), 1e-13);
         }
         for scale in [MassScale::Raw, MassScale::MeanOne] {
@@ -167,7 +168,7 @@ fn closed_forms() {
     let triangles = shapes::grid(columns, rows).unwrap().connectivity().triangles().to_vec();
     let plane = mesh(&positions, &triangles);
     for (weights, scale) in [(LaplacianWeights::Cotangent, w), (LaplacianWeights::MeanValue, 1.0 / 6.0)] {
-        let matrix = dense(&laplacian(&plane, weights).unwrap());
+        let matrix = dense(&laplacian(&plane, weights, &Watch::none()).unwrap());
         for (v, kind) in plane.connectivity().link_kinds().iter().enumerate() {
             if *kind == morse_smooth::mesh::LinkKind::Cycle {
                 for u in 0..matrix.ncols() {
@@ -187,7 +188,7 @@ fn closed_forms() {
 fn what_the_operators_promise() {
     for (name, mesh) in meshes() {
         for weights in ALL_WEIGHTS {
-            let matrix = dense(&laplacian(&mesh, weights).unwrap());
+            let matrix = dense(&laplacian(&mesh, weights, &Watch::none()).unwrap());
             let size = matrix.abs().max();
             let sums = matrix.column_sum().abs().max();
             assert!(sums <= 1e-14 * size, "{name} {weights:?}: rows sum to {sums:e}");
@@ -224,7 +225,10 @@ fn laplacians_and_the_scaled_mass_know_no_units() {
         )
         .unwrap();
         for weights in ALL_WEIGHTS {
-            let (a, b) = (laplacian(&base, weights).unwrap(), laplacian(&scaled, weights).unwrap());
+            let (a, b) = (
+                laplacian(&base, weights, &Watch::none()).unwrap(),
+                laplacian(&scaled, weights, &Watch::none()).unwrap(),
+            );
             assert_close(&format!("{weights:?} times {factor:e}"), &dense(&b), &dense(&a), 1e-14);
         }
         let (a, b) =
@@ -239,7 +243,7 @@ fn laplacians_and_the_scaled_mass_know_no_units() {
 fn linear_functions_on_a_plane_are_harmonic() {
     let plane = jittered_plane(12, 9, 8);
     for weights in [LaplacianWeights::Cotangent, LaplacianWeights::NormalizedCotangent, LaplacianWeights::MeanValue] {
-        let matrix = dense(&laplacian(&plane, weights).unwrap());
+        let matrix = dense(&laplacian(&plane, weights, &Watch::none()).unwrap());
         for axis in 0..2 {
             let coordinate =
                 DVector::from_iterator(plane.vertex_count(), plane.positions().chunks_exact(3).map(|p| 3.0 + p[axis]));
@@ -258,7 +262,7 @@ fn rows_without_area_are_empty() {
     for (mesh, vertex) in [(with_line(), 4), (islands(), 5)] {
         for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue, LaplacianWeights::NormalizedCotangent]
         {
-            let matrix = dense(&laplacian(&mesh, weights).unwrap());
+            let matrix = dense(&laplacian(&mesh, weights, &Watch::none()).unwrap());
             assert!(matrix.row(vertex).iter().chain(matrix.column(vertex).iter()).all(|&x| x == 0.0), "{weights:?}");
         }
         let mass = dense(&galerkin_mass(&mesh, MassScale::MeanOne).unwrap());

@@ -1,6 +1,6 @@
 //! Tikhonov smoothing against dense algebra with 32 digits, and the invariants of the equations.
 
-use morse_smooth::field::DeltaOptions;
+use morse_smooth::field::{DeltaOptions, ScalarField};
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{LaplacianWeights, MassScale};
 use morse_smooth::smooth::{
@@ -275,7 +275,7 @@ fn reports_tell_what_happened() {
                 }
             }
         }
-        let energies = smoothness(cholesky(&mesh).laplacian(), &f).unwrap();
+        let energies = smoothness(cholesky(&mesh).laplacian(), &ScalarField::new(&mesh, &f).unwrap()).unwrap();
         let (laplacian, f) = (reference_laplacian(&mesh, LaplacianWeights::Cotangent), DVector::from_vec(f));
         let image = &laplacian * &f;
         assert!((energies.laplacian_norm - image.norm()).abs() < 1e-9 * image.norm());

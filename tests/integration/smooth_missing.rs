@@ -1,11 +1,12 @@
 //! Smoothing where values are missing: left out as a hole would be, or filled in.
 
-use morse_smooth::field::{DeltaOptions, Features, Missing, Threshold};
+use morse_smooth::field::{DeltaOptions, Features, Missing, ScalarField, Threshold};
 use morse_smooth::mesh::{TriMesh, shapes};
-use morse_smooth::operators::MassScale;
+use morse_smooth::operators::{LaplacianWeights, MassScale, laplacian};
 use morse_smooth::smooth::{
     BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, Metric,
-    Operator, Smoothed, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained,
+    Operator, Smoothed, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained, constrained_vertices,
+    smoothness,
 };
 use morse_smooth::{Error, Watch};
 use nalgebra::{DMatrix, DVector};
@@ -105,6 +106,115 @@ fn omitting_is_smoothing_the_rest() {
                 }
                 assert_eq!(bits(&found.values), bits(&wanted), "{context}");
             }
+        }
+    }
+}
+
+/// The constraints that are compared, with stars and without: vertices by number and every rule.
+fn constraint_kinds(listed: &[u32]) -> Vec<Constraints<'_>> {
+    let rules = [
+        Features::Vertices(listed),
+        Features::CriticalPoints(DeltaOptions::default()),
+        Features::CriticalPoints(DeltaOptions { delta: 0.1, ..DeltaOptions::default() }),
+        Features::Persistence(Threshold::Relative(0.2)),
+        Features::KMeans { clusters: 3, seed: 1 },
+    ];
+    let both = |features| [true, false].map(|stars| Constraints { features, stars, ..Constraints::default() });
+    rules.into_iter().flat_map(both).collect()
+}
+
+#[test]
+fn constrained_vertices_are_those_of_the_rest() {
+    let mut kinds = every_kind();
+    kinds.push(("two components", together(&[shapes::torus(13, 10, 0.2).unwrap(), shapes::sphere(2).unwrap()])));
+    let find = |mesh: &TriMesh, values: &[f64], channels, missing, constraints: &Constraints<'_>| {
+        constrained_vertices(mesh, values, channels, missing, constraints, &Watch::none())
+    };
+    for (name, mesh) in kinds {
+        let n = mesh.vertex_count();
+        for channels in [1, 2] {
+            let mut values = noise(n * channels, 8);
+            for v in (0..n).filter(|v| v % 9 == 4) {
+                values[v * channels + v % channels] = f64::NAN;
+            }
+            let has = |v: u32| !values[v as usize * channels..][..channels].iter().any(|x| x.is_nan());
+            let Some((part, vertices)) = submesh(&mesh, &has) else {
+                let refused = find(&mesh, &values, channels, Missing::Omit, &constraint_kinds(&[])[2]).unwrap_err();
+                assert_eq!(refused.code(), "EmptyMesh", "{name}");
+                continue;
+            };
+            let of_part: Vec<f64> =
+                vertices.iter().flat_map(|&v| values[v as usize * channels..][..channels].to_vec()).collect();
+            let local: Vec<u32> = (0..vertices.len() as u32).step_by(5).collect();
+            let listed: Vec<u32> = local.iter().map(|&v| vertices[v as usize]).collect();
+            for (ours, theirs) in constraint_kinds(&listed).iter().zip(constraint_kinds(&local)) {
+                let mut expected = find(&part, &of_part, channels, Missing::Error, &theirs).unwrap();
+                expected.iter_mut().for_each(|v| *v = vertices[*v as usize]);
+                let context = format!("{name}, {channels} channels, {ours:?}");
+                assert_eq!(find(&mesh, &values, channels, Missing::Omit, ours).unwrap(), expected, "{context}");
+                // Filling constrains the same features; stars are those of the whole mesh, as far as there are values.
+                let filled = find(&mesh, &values, channels, Missing::Fill, ours).unwrap();
+                let plain = Constraints { stars: false, ..*ours };
+                let mut features = find(&mesh, &values, channels, Missing::Omit, &plain).unwrap();
+                if ours.stars {
+                    features = morse_smooth::field::with_stars(mesh.connectivity(), &features);
+                    features.retain(|&v| has(v));
+                }
+                assert_eq!(filled, features, "{context}");
+            }
+            // Vertices by number must have values.
+            let gone = (0..n as u32).find(|&v| !has(v));
+            for missing in [Missing::Omit, Missing::Fill] {
+                if let Some(gone) = gone {
+                    let listed = [gone];
+                    let refused = find(&mesh, &values, channels, missing, &constraint_kinds(&listed)[0]).unwrap_err();
+                    assert_eq!((refused.code(), refused.detail()), ("MissingValue", vec![("vertex", gone.into())]));
+                }
+            }
+            let refused = find(&mesh, &values, channels, Missing::Error, &constraint_kinds(&[0])[0]);
+            assert_eq!(refused.map_err(|error| error.code()).err(), gone.map(|_| "NonFiniteValue"), "{name}");
+        }
+    }
+}
+
+/// Smoothing says how many vertices it constrained: as many as are found beforehand with the same choice.
+#[test]
+fn constrained_vertices_are_those_of_smoothing() {
+    let mesh = shapes::torus(13, 10, 0.2).unwrap();
+    let mut values = noise(mesh.vertex_count(), 6);
+    values.iter_mut().step_by(7).for_each(|value| *value = f64::NAN);
+    let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
+    for missing in [Missing::Omit, Missing::Fill] {
+        for constraints in constraint_kinds(&[1, 30, 100]) {
+            let options = LeastSquaresOptions { constraints, missing, ..LeastSquaresOptions::default() };
+            let report = smoother.least_squares(&values, &options).unwrap().reports.remove(0);
+            let found = constrained_vertices(&mesh, &values, 1, missing, &constraints, &Watch::none()).unwrap();
+            assert_eq!(report.constraint_count, found.len(), "{missing:?} {constraints:?}");
+        }
+    }
+}
+
+#[test]
+fn smoothness_is_that_of_the_rest() {
+    for (name, mesh) in every_kind() {
+        let mut values = noise(mesh.vertex_count(), 12);
+        values.iter_mut().skip(4).step_by(9).for_each(|value| *value = f64::NAN);
+        let has = |v: u32| !values[v as usize].is_nan();
+        let Some((part, vertices)) = submesh(&mesh, &has) else { continue };
+        let of_part: Vec<f64> = vertices.iter().map(|&v| values[v as usize]).collect();
+        let field = ScalarField::with_missing(&mesh, &values, Missing::Omit).unwrap();
+        let plain = ScalarField::new(&part, &of_part).unwrap();
+        for &weights in LaplacianWeights::ALL {
+            let of = |field: &ScalarField<'_>| {
+                let laplacian = laplacian(field.mesh(), weights, &Watch::none()).ok()?;
+                let energies = smoothness(&laplacian, field).unwrap();
+                Some([energies.sobolev.to_bits(), energies.laplacian_norm.to_bits()])
+            };
+            assert_eq!(of(&field), of(&plain), "{name} {weights:?}");
+        }
+        let whole = laplacian(&mesh, LaplacianWeights::Uniform, &Watch::none()).unwrap();
+        if vertices.len() < mesh.vertex_count() {
+            assert_eq!(smoothness(&whole, &field).unwrap_err().code(), "LengthMismatch", "{name}");
         }
     }
 }

@@ -9,7 +9,7 @@ use morse_smooth::smooth::{
     BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, Metric,
     Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained,
 };
-use morse_smooth::{Progress, Watch};
+use morse_smooth::{Phase, Progress, Watch};
 
 use crate::support::noise;
 
@@ -44,6 +44,34 @@ fn settings() -> Vec<SmootherOptions> {
         SmootherOptions { solver: SolverChoice::ConjugateGradient, bounds: true, ..plain },
         SmootherOptions { weights: LaplacianWeights::MeanValue, ..plain },
     ]
+}
+
+/// Assembling is stopped before anything is made, and asks as often for every kind of weights.
+#[test]
+fn a_smoother_that_is_being_made_stops() {
+    let mesh = shapes::torus(400, 200, 0.2).unwrap();
+    for &weights in LaplacianWeights::ALL {
+        let options = SmootherOptions { weights, ..SmootherOptions::default() };
+        let mut told = Vec::new();
+        let mut tell = |progress: Progress| {
+            told.push((progress.phase, progress.fraction));
+            ControlFlow::Continue(())
+        };
+        let watched = Smoother::watched(&mesh, options, &Watch::new(&mut tell)).unwrap();
+        assert_eq!(watched.laplacian(), Smoother::new(&mesh, options).unwrap().laplacian(), "{weights:?}");
+        assert!(told.len() >= 3, "{weights:?}: {}", told.len());
+        // Nothing of what the smoother is made for is done.
+        assert!(told.iter().all(|&told| told == (Phase::Analysis, 0.0)), "{weights:?}: {told:?}");
+        for last in 0..told.len() {
+            let mut asked = 0;
+            let mut stop = |_: Progress| {
+                asked += 1;
+                if asked > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let refused = Smoother::watched(&mesh, options, &Watch::new(&mut stop)).unwrap_err();
+            assert_eq!((refused.code(), asked), ("Cancelled", last + 1), "{weights:?}");
+        }
+    }
 }
 
 #[test]

@@ -70,6 +70,42 @@ describe.each(Object.keys(shapes))('omitted on the %s', (name) => {
     }
   });
 
+  it('smoothness is that of the submesh', () => {
+    for (const weights of ['cotangent', 'intrinsicDelaunay', 'meanValue', 'uniform']) {
+      const [found, expected] = both((mesh, f, options) => mesh.smoothness(f, { weights, ...options }));
+      expect(found, weights).toEqual(expected);
+    }
+  });
+
+  it('constrained vertices are those of the submesh', () => {
+    for (const rule of [
+      { from: 'criticalPoints' },
+      { from: 'criticalPoints', delta: 0.1, stars: false },
+      { from: 'persistence', threshold: 0.2 },
+      { from: 'kMeans', clusters: 4, stars: false },
+    ]) {
+      const [found, expected] = both((mesh, f, options) => mesh.constrainedVertices(f, rule, options));
+      expect(found, rule.from).toEqual(whole(expected));
+    }
+    const [third] = whole(Uint32Array.of(3));
+    const named = (vertices) => ({ from: 'vertices', vertices });
+    const found = make(shape).constrainedVertices(values, named([third]), { missing: 'omit' });
+    expect(found).toEqual(whole(make(part).constrainedVertices(part.values, named([3]))));
+    const gone = values.findIndex(Number.isNaN);
+    for (const missing of ['omit', 'fill'])
+      expectError(() => make(shape).constrainedVertices(values, [gone], { missing }), 'MissingValue', { vertex: gone });
+  });
+
+  it('constrained vertices are as many as smoothing says', () => {
+    const smoother = new Smoother(make(shape));
+    for (const missing of ['omit', 'fill'])
+      for (const constraints of [{ from: 'criticalPoints' }, { from: 'persistence', threshold: 0.2, stars: false }]) {
+        const options = { constraints, epsilon: 1, missing, unconstrained: 'keep' };
+        const { constraintCount } = smoother.leastSquares(values, options).report;
+        expect(make(shape).constrainedVertices(values, constraints, { missing }).length).toBe(constraintCount);
+      }
+  });
+
   it('simplified values are those of the submesh, and NaN', () => {
     const [found, expected] = both((mesh, f, options) => mesh.simplify(f, { threshold: 0.2, ...options }));
     const all = new Float64Array(values.length).fill(NaN);

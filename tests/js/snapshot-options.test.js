@@ -86,7 +86,7 @@ describe('the options', () => {
     }
   });
 
-  it('colour maps have names', () => {
+  it('color maps have names', () => {
     for (const colormap of ['jet', 'Viridis', '', 5, true, ['viridis'], {}, new String('viridis')]) {
       refused({ colormap }, 'InvalidOption', { option: 'colormap' });
       expectError(() => scene.drawList(field, { colormap }), 'InvalidOption', { option: 'colormap' });

@@ -31,7 +31,7 @@ describe('a snapshot', () => {
   ])('is a PNG file of %i × %i pixels with %o', (width, height, options) => {
     const png = snapshot(positions, triangles, field, options);
     expect(png).toBeInstanceOf(Uint8Array);
-    expect(header(png)).toEqual({ width, height, bits: 8, colourType: 2 });
+    expect(header(png)).toEqual({ width, height, bits: 8, colorType: 2 });
     // As long as its buffer: no view of the module's memory, which would go stale.
     expect(png.byteLength).toBe(png.buffer.byteLength);
   });
@@ -93,7 +93,7 @@ describe('a snapshot', () => {
     expect(draw(options)).not.toEqual(draw());
   });
 
-  it('of every colour map is a picture of its own', () => {
+  it('of every color map is a picture of its own', () => {
     const names = ['viridis', 'cividis', 'magma', 'inferno', 'plasma', 'coolWarm', 'blueRed', 'purpleGreen'];
     const pictures = names.map((colormap) => draw({ colormap }).join());
     expect(new Set(pictures).size).toBe(names.length);
@@ -158,8 +158,8 @@ describe('a sheet', () => {
 
   it('is a PNG file with three pictures beside each other', () => {
     const png = own();
-    const { width, height, bits, colourType } = header(png);
-    expect([bits, colourType]).toEqual([8, 2]);
+    const { width, height, bits, colorType } = header(png);
+    expect([bits, colorType]).toEqual([8, 2]);
     expect(width).toBeGreaterThanOrEqual(3 * small.width);
     expect(height).toBeGreaterThanOrEqual(small.height);
     expect(sheet(positions, triangles, field, after, small)).toEqual(png);

@@ -23,6 +23,8 @@ const analyses = {
   basins: (mesh, more) => mesh.basins(values, { persistence: 0.1, ...more }),
   levelSets: (mesh, more) => mesh.levelSets(values, { count: 100 }, more),
   bands: (mesh, more) => mesh.bands(values, { count: 100 }, more),
+  constrainedVertices: (mesh, more) => mesh.constrainedVertices(values, constraints, more),
+  smoothness: (mesh, more) => mesh.smoothness(values, more),
 };
 const smoothings = {
   tikhonov: (smoother, more) => smoother.tikhonov(values, { epsilon: 0.1, ...more }),

@@ -98,6 +98,10 @@ const { vanishesAtAbsolute, delta: steps, minima: minimaAt, maxima: maximaAt, sa
 mesh.deltaHierarchy(heat, { delta: 0.1 });
 
 const { sobolev, laplacianNorm }: api.Smoothness = mesh.smoothness(heat, { weights: 'meanValue' });
+mesh.smoothness(heat, { missing: 'omit', onProgress: () => {} });
+// @ts-expect-error only smoothing can fill
+mesh.smoothness(heat, { missing: 'fill' });
+mesh.constrainedVertices(heat, { from: 'kMeans', clusters: 3 }, { missing: 'fill', channels: 1 });
 const matrix: api.SparseMatrix = mesh.laplacian({ weights: 'normalizedCotangent' });
 const { rows, columns, columnPointers, rowIndices, values } = matrix;
 const mass: api.SparseMatrix = mesh.mass({ kind: 'lumped', massScale: 'raw' });

@@ -35,37 +35,13 @@ function withoutLoose(values: Float64Array, triangles: Uint32Array): Float64Arra
   return known;
 }
 
-/** The part of a mesh whose triangles have three values, or all of it. */
-export interface Part {
-  mesh: TriMesh;
-  values: Float64Array;
-  /** The numbers that vertices have in the part; those without a value are left out. */
-  into(vertices: Iterable<number>): number[];
-  /** Numbers in the part as those in the mesh. */
-  back(vertices: Uint32Array): Uint32Array<ArrayBuffer>;
-}
-
-/** For what takes no gaps. */
-export function onPart<T>(whole: TriMesh, values: Float64Array, use: (part: Part) => T): T {
-  const back = (vertices: Uint32Array): Uint32Array<ArrayBuffer> => new Uint32Array(vertices);
-  if (gapsIn(values) === 0) return use({ mesh: whole, values, into: (vertices) => [...vertices], back });
-  const { mesh, vertices } = whole.withoutMissing(values);
-  const numbers = new Map(Array.from(vertices, (vertex, number) => [vertex, number]));
+/** Of the part that has values, which the critical points add up to. */
+export function shapeOf(whole: TriMesh, values: Float64Array): Shape {
+  const part = gapsIn(values) > 0 ? whole.withoutMissing(values).mesh : null;
   try {
-    return use({
-      mesh,
-      values: Float64Array.from(vertices, (vertex) => values[vertex]!),
-      into: (wanted) => [...wanted].flatMap((vertex) => numbers.get(vertex) ?? []),
-      back: (found) => Uint32Array.from(found, (number) => vertices[number]!),
-    });
+    const { eulerCharacteristic, closed } = (part ?? whole).topology;
+    return { eulerCharacteristic, closed };
   } finally {
-    mesh.free();
+    part?.free();
   }
 }
-
-/** Of the part that has values, which the critical points add up to. */
-export const shapeOf = (mesh: TriMesh, values: Float64Array): Shape =>
-  onPart(mesh, values, (part) => {
-    const { eulerCharacteristic, closed } = part.mesh.topology;
-    return { eulerCharacteristic, closed };
-  });

@@ -5,9 +5,10 @@ use core::ops::Range;
 use super::line::Line;
 use super::seeding::seeded;
 use crate::error::FieldError;
-use crate::field::arrays::{collected, copied, filled, ranges, with_room};
+use crate::field::arrays::{collected, copied, filled, with_room};
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::{ascending_bits, sort_by_key};
+use crate::support::pieces::ranges;
 use crate::support::random::Random;
 use crate::support::watch::{Phase, Watch};
 

@@ -1,10 +1,11 @@
 //! Values on a line, with the sums that k-means needs of any interval.
 
 use crate::error::FieldError;
-use crate::field::arrays::{collected, ranges, with_room};
+use crate::field::arrays::{collected, with_room};
 use crate::field::scalar_field::ScalarField;
 use crate::field::sorting::sort_by_value;
 use crate::mesh::LinkKind;
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
 
 /// The values of the vertices that belong to a triangle, by ascending (value, id), as integers: (f − min) 2^e, rounded down.

@@ -3,10 +3,11 @@
 use super::level_set::{check_levels, room};
 use super::saddle_levels::distinct;
 use crate::error::{FieldError, OutOfMemory, Result};
-use crate::field::arrays::{collected, ranges};
+use crate::field::arrays::collected;
 use crate::field::scalar_field::{OnMesh, Part as MeshPart, ScalarField};
 use crate::mesh::{LinkKind, TriMesh};
 use crate::support::memory;
+use crate::support::pieces::ranges;
 use crate::support::watch::{Phase, Watch};
 
 /// A mesh cut along level sets: every triangle lies in one band. Band k holds what is at least `levels[k − 1]` and less than

@@ -3,11 +3,12 @@
 use core::ops::Range;
 
 use crate::error::{FieldError, OptionError, OutOfMemory, Result};
-use crate::field::arrays::{copied, filled, pieces, ranges};
+use crate::field::arrays::{copied, filled};
 use crate::field::scalar_field::{OnMesh, Part, ScalarField};
 use crate::field::sorting::sort;
 use crate::mesh::TriMesh;
 use crate::support::memory;
+use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::{Phase, Watch};
 
 /// More levels than anyone can tell apart; the bound keeps a slip from filling the memory.
@@ -247,23 +248,23 @@ impl Walk<'_, '_> {
         for &t in triangles {
             self.visited[t as usize] = false;
         }
-        for piece in pieces(triangles, TRACE / 2, self.watch) {
+        for piece in pieces(triangles, TRACE / 4, self.watch) {
             for &t in piece? {
                 for edge in connectivity.triangle_edges()[t as usize] {
                     let ends_here = self.is_cut(edge, level) && connectivity.across(t, edge).is_none();
                     if ends_here && !self.visited[t as usize] {
-                        self.line(level, t, edge, false);
+                        self.line(level, t, edge, false)?;
                     }
                 }
             }
         }
-        for piece in pieces(triangles, TRACE / 2, self.watch) {
+        for piece in pieces(triangles, TRACE / 4, self.watch) {
             for &t in piece? {
                 if !self.visited[t as usize] {
                     let cut =
                         connectivity.triangle_edges()[t as usize].into_iter().find(|&edge| self.is_cut(edge, level));
                     if let Some(edge) = cut {
-                        self.line(level, t, edge, true);
+                        self.line(level, t, edge, true)?;
                     }
                 }
             }
@@ -272,12 +273,13 @@ impl Walk<'_, '_> {
     }
 
     /// Follows one line that enters triangle `t` through `edge`.
-    fn line(&mut self, level: f64, mut t: u32, mut edge: u32, closed: bool) {
+    fn line(&mut self, level: f64, mut t: u32, mut edge: u32, closed: bool) -> Result<(), FieldError> {
         let connectivity = self.mesh.connectivity();
         let start = self.sets.parameters.len();
         self.point(level, edge, start);
         loop {
             self.visited[t as usize] = true;
+            self.watch.tick(TRACE / 2)?;
             let exit = connectivity.triangle_edges()[t as usize]
                 .into_iter()
                 .find(|&other| other != edge && self.is_cut(other, level));
@@ -300,11 +302,12 @@ impl Walk<'_, '_> {
         if self.sets.parameters.len() < start + 2 {
             // The line has shrunk to a point.
             self.cut_back(start);
-            return;
+            return Ok(());
         }
         self.sets.offsets.push(self.sets.parameters.len() as u32);
         self.sets.levels.push(level);
         self.sets.closed.push(closed);
+        Ok(())
     }
 
     /// The coordinates of a point.

@@ -4,13 +4,14 @@ use super::NONE;
 use super::paths::{Crossing, Paths};
 use super::simple_saddles::SimpleSaddles;
 use crate::error::FieldError;
-use crate::field::arrays::{collected, copied, filled, numbers, pieces, push, ranges};
+use crate::field::arrays::{collected, copied, filled, numbers, push};
 use crate::field::merging::Merging;
 use crate::field::order::VertexOrder;
 use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::{Steepest, ends};
 use crate::field::sweep::Sweep;
 use crate::mesh::TriMesh;
+use crate::support::pieces::{pieces, ranges};
 use crate::support::union_find::UnionFind;
 use crate::support::watch::{Phase, Watch};
 

@@ -3,10 +3,11 @@
 use super::NONE;
 use super::cancellations::Cancellations;
 use crate::error::{OutOfMemory, Result};
-use crate::field::arrays::{filled, pieces, push, ranges};
+use crate::field::arrays::{filled, push};
 use crate::field::critical::CriticalKind;
 use crate::field::scalar_field::{OnMesh, Part, ScalarField};
 use crate::mesh::LinkKind;
+use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::{Phase, Watch};
 
 /// An extremum, or a simple saddle: one of multiplicity k is k nodes.

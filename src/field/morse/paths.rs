@@ -1,9 +1,13 @@
 //! Where steepest paths lead in one direction, before and after cancellations.
 
-use crate::error::FieldError;
-use crate::field::arrays::{filled, push, ranges, with_room};
+use crate::error::{Cancelled, FieldError};
+use crate::field::arrays::{filled, push, with_room};
 use crate::field::steepest::ends;
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
+
+/// The work with one step along a path.
+const STEP: u64 = 5;
 
 /// A forest: every vertex leads on to another one, and an extremum to itself. Behind the vertices come the simple saddles,
 /// over which the paths of cancelled extrema go on; such an entry is for the vertex of its saddle.
@@ -94,7 +98,7 @@ impl<'a> Paths<'a> {
                 }
                 let Crossing { simple, sides: [a, b], .. } = crossings[i as usize];
                 let (to, from) = if ends[a as usize] == basin { (a, b) } else { (b, a) };
-                watch.tick(5 * self.turn_round(simple, from, to))?;
+                watch.tick(STEP * self.turn_round(simple, from, to))?;
                 push(&mut waiting, ends[from as usize])?;
             }
         }
@@ -138,17 +142,21 @@ impl<'a> Paths<'a> {
 
     /// Where the path from a saddle begins whose first vertex was `first`: behind the place where it last comes back over the
     /// saddle, if it does.
-    pub(super) fn beginning(&self, saddle: u32, first: u32) -> u32 {
+    ///
+    /// # Errors
+    /// `Cancelled`: such a path can be as long as the mesh, and many saddles can share it.
+    pub(super) fn beginning(&self, saddle: u32, first: u32, watch: &Watch<'_>) -> Result<u32, Cancelled> {
         let (mut begin, mut at) = (first, first);
         if !self.crossed.is_empty() && self.crossed[saddle as usize] {
             while let Some(next) = self.next(at) {
+                watch.tick(STEP)?;
                 if self.vertex(at) == saddle {
                     begin = next;
                 }
                 at = next;
             }
         }
-        begin
+        Ok(begin)
     }
 
     /// The entry after `at`; `None` at an extremum.

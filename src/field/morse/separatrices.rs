@@ -103,7 +103,7 @@ pub fn morse_complex(
         while simple < simple_saddles.len() && simple_saddles.vertices[simple] == vertex {
             for (side, paths) in [simple_saddles.down[simple], simple_saddles.up[simple]].into_iter().enumerate() {
                 for first in paths.into_iter().filter(|&first| alive[simple] && first != NONE) {
-                    begins[side].push(all_paths[side].beginning(vertex, first));
+                    begins[side].push(all_paths[side].beginning(vertex, first, watch)?);
                 }
             }
             simple += 1;

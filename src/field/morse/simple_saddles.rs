@@ -2,10 +2,11 @@
 
 use super::NONE;
 use crate::error::FieldError;
-use crate::field::arrays::{collected, push, ranges, with_room};
+use crate::field::arrays::{collected, push, with_room};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
 
 /// Simple saddles, each with at most two steepest paths down and two up, given by their first vertices; [`NONE`] where there

@@ -5,12 +5,13 @@ use std::collections::BinaryHeap;
 use core::cmp::Reverse;
 
 use crate::error::FieldError;
-use crate::field::arrays::{collected, copied, filled, numbers, push, ranges, with_room};
+use crate::field::arrays::{collected, copied, filled, numbers, push, with_room};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::field::sorting::{sort_by_key, sort_by_value};
 use crate::mesh::{Connectivity, LinkKind, TriMesh};
 use crate::support::memory;
+use crate::support::pieces::ranges;
 use crate::support::union_find::UnionFind;
 use crate::support::watch::Watch;
 

@@ -5,7 +5,7 @@ mod loops;
 use loops::essential_saddles;
 
 use crate::error::{OutOfMemory, Result};
-use crate::field::arrays::{collected, copied, filled, numbers, push, ranges};
+use crate::field::arrays::{collected, copied, filled, numbers, push};
 use crate::field::critical::CriticalKind;
 use crate::field::merging::Merging;
 use crate::field::saddles::Saddles;
@@ -14,6 +14,7 @@ use crate::field::sorting::{ascending_bits, sort_by_key};
 use crate::field::steepest::Steepest;
 use crate::field::sweep::Sweep;
 use crate::mesh::LinkKind;
+use crate::support::pieces::ranges;
 use crate::support::watch::{Phase, Watch};
 
 /// An extremum and the saddle at which its component of the sublevel or superlevel set joins that of an older one.

@@ -3,8 +3,9 @@
 use core::cmp::Ordering;
 
 use crate::error::FieldError;
-use crate::field::arrays::{filled, pieces, push, ranges, with_room};
+use crate::field::arrays::{filled, push, with_room};
 use crate::mesh::{Connectivity, LinkKind};
+use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::Watch;
 
 /// What becomes of a vertex, from bottom to top.

@@ -2,13 +2,14 @@
 
 use super::flats::Target;
 use crate::error::FieldError;
-use crate::field::arrays::{copied, filled, push, ranges, with_room};
+use crate::field::arrays::{copied, filled, push, with_room};
 use crate::field::merging::{Merged, Merging};
 use crate::field::order::VertexOrder;
 use crate::field::saddles::Saddles;
 use crate::field::steepest::{Steepest, ends};
 use crate::field::sweep::Sweep;
 use crate::mesh::{LinkKind, TriMesh};
+use crate::support::pieces::ranges;
 use crate::support::watch::Watch;
 
 /// What a field becomes when only the wanted minima are to stay (sweeping upwards), or only the wanted maxima.

@@ -2,9 +2,10 @@
 
 use super::flats::Surroundings;
 use crate::error::FieldError;
-use crate::field::arrays::{copied, filled, pieces};
+use crate::field::arrays::{copied, filled};
 use crate::field::sorting::sort_by_value;
 use crate::mesh::Connectivity;
+use crate::support::pieces::pieces;
 use crate::support::watch::Watch;
 
 /// The work with one edge, and with one vertex.

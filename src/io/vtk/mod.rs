@@ -250,12 +250,12 @@ impl Reader<'_> {
         let name = decode_name(self.data.text.name_in_row("the name")?);
         match keyword {
             b"COLOR_SCALARS" => {
-                let components = self.data.text.count_in_row("the number of colour components")?;
-                self.skip_colours(&format!("colours `{name}`"), count.saturating_mul(components))
+                let components = self.data.text.count_in_row("the number of color components")?;
+                self.skip_colors(&format!("colors `{name}`"), count.saturating_mul(components))
             }
             b"LOOKUP_TABLE" => {
                 let size = self.data.text.count_in_row("the size of the table")?;
-                self.skip_colours(&format!("lookup table `{name}`"), size.saturating_mul(4))
+                self.skip_colors(&format!("lookup table `{name}`"), size.saturating_mul(4))
             }
             b"GLOBAL_IDS" | b"PEDIGREE_IDS" | b"EDGE_FLAGS" => {
                 let kind = self.data.array_type()?;
@@ -274,7 +274,7 @@ impl Reader<'_> {
                     Some(word) => parse_count(word).ok_or_else(|| self.data.text.invalid_number(word))?,
                     None => 1,
                 };
-                // The name of a table that colours the values; some writers leave it out.
+                // The name of a table that colors the values; some writers leave it out.
                 if self.data.text.peek_word().is_some_and(|word| word.eq_ignore_ascii_case(b"LOOKUP_TABLE")) {
                     self.data.text.word();
                     self.data.text.word_in_row();
@@ -360,8 +360,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Colours are fractions in text and bytes in binary files.
-    fn skip_colours(&mut self, what: &str, count: u64) -> Result<(), ParseError> {
+    /// Colors are fractions in text and bytes in binary files.
+    fn skip_colors(&mut self, what: &str, count: u64) -> Result<(), ParseError> {
         self.data.skip(ArrayType::Number(NumberType::U8), count)?;
         self.assembly.skipped(what, count);
         Ok(())

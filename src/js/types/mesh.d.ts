@@ -145,18 +145,23 @@ export class TriMesh {
   basins(values: Numbers, options?: Omit<MorseComplexOptions, 'paths'> & AnalysisOptions): Basins;
 
   /**
-   * The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them.
+   * The vertices that constraints come to, ascending, each once: stars included, with several channels those of all of them. With
+   * the same `missing` they are those that smoothing constrains; vertices without a value are none of them.
    *
-   * @throws `IndexOutOfBounds` (`index`); `InvalidOption`, such as for 0 clusters
+   * @throws `IndexOutOfBounds` (`index`); `InvalidOption`, such as for 0 clusters; `MissingValue` (`vertex`) for a vertex by number
+   *   without a value
    */
   constrainedVertices(
     values: Numbers,
     constraints: Constraints,
-    options?: ChannelOptions & ProgressOptions,
+    options?: ChannelOptions & FillOptions & ProgressOptions,
   ): Uint32Array;
 
-  /** How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. */
-  smoothness(values: Numbers, options?: { weights?: LaplacianWeights }): Smoothness;
+  /**
+   * How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. With `missing: "omit"` L is that of the
+   * mesh without the triangles that have a missing vertex.
+   */
+  smoothness(values: Numbers, options?: { weights?: LaplacianWeights } & AnalysisOptions): Smoothness;
 
   /**
    * The Laplacian L, n × n: l_ij = −w_ij for an edge, rows that sum to 0, so positive semi-definite where symmetric.

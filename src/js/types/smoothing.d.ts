@@ -197,7 +197,10 @@ export interface BilateralOptions extends ChannelOptions, MissingOptions {
  * one that the smoother was made with.
  */
 export class Smoother {
-  /** The mesh may be freed afterwards. */
+  /**
+   * The mesh may be freed afterwards. Where the mesh is large, `onProgress` is called while the operators are assembled, too, with the
+   * phase `"analysis"` and the fraction 0, and can stop that: what the smoother is made for has not begun.
+   */
   constructor(mesh: TriMesh, options?: SmootherOptions);
 
   /**

@@ -6,10 +6,12 @@ mod triangulation;
 use nalgebra_sparse::CscMatrix;
 
 use self::triangulation::Triangulation;
+use super::SUMMED;
 use super::{from_symmetric, symmetric_bytes};
 use crate::error::MeshError;
 use crate::mesh::TriMesh;
 use crate::support::memory;
+use crate::support::watch::Watch;
 
 /// The cotangent Laplacian of the intrinsic Delaunay triangulation.
 ///
@@ -53,11 +55,17 @@ use crate::support::memory;
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, MeshError> {
+    laplacian(mesh, &Watch::none())
+}
+
+pub(super) fn laplacian(mesh: &TriMesh, watch: &Watch<'_>) -> Result<CscMatrix<f64>, MeshError> {
     let before = mesh.connectivity().edges();
     memory::ensure(Triangulation::bytes(before.len(), mesh.triangle_count()))?;
-    let mut triangulation = Triangulation::new(mesh.connectivity(), lengths::edge_lengths(mesh));
-    triangulation.make_delaunay();
-    let mut weights = triangulation.weights();
+    watch.tick(3 * SUMMED * before.len() as u64)?;
+    let lengths = lengths::edge_lengths(mesh);
+    let mut triangulation = Triangulation::new(mesh.connectivity(), lengths, watch)?;
+    triangulation.make_delaunay(watch)?;
+    let mut weights = triangulation.weights(watch)?;
 
     let new_ends =
         |edge: u32| triangulation.ends(edge).filter(|&ends| ends != before[edge as usize] && ends[0] != ends[1]);
@@ -65,6 +73,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
     let most_edges = before.len() + moved_count;
     memory::ensure((size_of::<Moved>() * moved_count) as u64)?;
     let mut moved = Vec::with_capacity(moved_count);
+    watch.tick(2 * SUMMED * before.len() as u64)?;
     for edge in 0..before.len() as u32 {
         if let Some(ends) = triangulation.ends(edge)
             && ends != before[edge as usize]
@@ -77,6 +86,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
     }
     drop(triangulation);
     memory::ensure(16 * most_edges as u64 + symmetric_bytes(mesh.vertex_count(), most_edges))?;
+    watch.tick(5 * SUMMED * moved_count as u64)?;
     // The id settles the order of edges with the same ends, and with it the rounding of their sum.
     moved.sort_unstable_by_key(|moved| (moved.ends, moved.edge));
 
@@ -89,6 +99,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
             sums.push(weight);
         }
     };
+    watch.tick(SUMMED * most_edges as u64)?;
     let mut rest = moved.iter().peekable();
     for (&ends, &weight) in before.iter().zip(&weights) {
         while let Some(next) = rest.next_if(|next| next.ends < ends) {
@@ -99,7 +110,7 @@ pub fn intrinsic_delaunay_laplacian(mesh: &TriMesh) -> Result<CscMatrix<f64>, Me
     for next in rest {
         add(next.ends, next.weight);
     }
-    Ok(from_symmetric(mesh.vertex_count(), &edges, &sums))
+    Ok(from_symmetric(mesh.vertex_count(), &edges, &sums, watch)?)
 }
 
 /// An edge with other ends than in the mesh.

@@ -4,7 +4,10 @@
 //! vertex at several corners, or share several sides with another. Neither need it be oriented.
 
 use super::lengths::{area, four_areas_cotangent};
+use crate::error::Cancelled;
 use crate::mesh::Connectivity;
+use crate::support::pieces::{pieces, ranges};
+use crate::support::watch::Watch;
 
 /// No side.
 const NONE: u32 = u32::MAX;
@@ -18,6 +21,11 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need a few
 /// flips per edge. Where flips run out, edges that are not Delaunay keep their negative weights.
 const FLIPS_PER_EDGE: u64 = 1000;
+
+/// The work with a triangle that is copied or weighed, with an edge that is looked at, and with a flip.
+const TRIANGLE: u64 = 80;
+const LOOK: u64 = 60;
+const FLIP: u64 = 150;
 
 /// A side is `3t + c` as a half-edge of `Connectivity` is: from corner c of triangle t to corner (c + 1) % 3.
 pub(super) struct Triangulation {
@@ -40,32 +48,34 @@ impl Triangulation {
         32 * m as u64 + 17 * edges as u64 + 9 * edges as u64
     }
 
-    pub(super) fn new(connectivity: &Connectivity, lengths: Vec<f64>) -> Self {
+    pub(super) fn new(connectivity: &Connectivity, lengths: Vec<f64>, watch: &Watch<'_>) -> Result<Self, Cancelled> {
         let corners = connectivity.triangles().to_vec();
         let edges = connectivity.triangle_edges().to_vec();
         let mut sides = vec![[NONE; 2]; lengths.len()];
         let mut same_way = vec![false; lengths.len()];
         let mut areas = Vec::with_capacity(corners.len());
-        for t in 0..corners.len() {
-            areas.push(area(edges[t].map(|e| lengths[e as usize])));
-            for c in 0..3 {
-                let edge = edges[t][c] as usize;
-                if connectivity.triangles_of_edge(edge as u32).len() == 2 {
-                    let upwards = corners[t][c] < corners[t][(c + 1) % 3];
-                    let second = usize::from(sides[edge][0] != NONE);
-                    sides[edge][second] = (3 * t + c) as u32;
-                    same_way[edge] = if second == 1 { same_way[edge] == upwards } else { upwards };
+        for range in ranges(corners.len(), TRIANGLE, watch) {
+            for t in range? {
+                areas.push(area(edges[t].map(|e| lengths[e as usize])));
+                for c in 0..3 {
+                    let edge = edges[t][c] as usize;
+                    if connectivity.triangles_of_edge(edge as u32).len() == 2 {
+                        let upwards = corners[t][c] < corners[t][(c + 1) % 3];
+                        let second = usize::from(sides[edge][0] != NONE);
+                        sides[edge][second] = (3 * t + c) as u32;
+                        same_way[edge] = if second == 1 { same_way[edge] == upwards } else { upwards };
+                    }
                 }
             }
         }
-        Self { corners, edges, sides, same_way, lengths, areas }
+        Ok(Self { corners, edges, sides, same_way, lengths, areas })
     }
 
     /// Flips edges until all that have two triangles are Delaunay.
     ///
     /// In rounds over all edges that a flip of the last round has touched: on a fan of n triangles, one edge after the other
     /// to its end would take about n² flips, where rounds divide it again and again.
-    pub(super) fn make_delaunay(&mut self) {
+    pub(super) fn make_delaunay(&mut self, watch: &Watch<'_>) -> Result<(), Cancelled> {
         let count = self.sides.len();
         let mut left = FLIPS_PER_EDGE * count as u64;
         let mut queued = vec![true; count];
@@ -73,23 +83,29 @@ impl Triangulation {
         // A round has no edge twice.
         let mut next = Vec::with_capacity(count);
         while !round.is_empty() {
-            for &edge in &round {
-                queued[edge as usize] = false;
-                if left == 0 || self.is_delaunay(edge) {
-                    continue;
-                }
-                let Some(around) = self.flip(edge) else { continue };
-                left -= 1;
-                for near in around {
-                    if !queued[near as usize] {
-                        queued[near as usize] = true;
-                        next.push(near);
+            for piece in pieces(&round, LOOK, watch) {
+                let mut flips = 0;
+                for &edge in piece? {
+                    queued[edge as usize] = false;
+                    if left == 0 || self.is_delaunay(edge) {
+                        continue;
+                    }
+                    let Some(around) = self.flip(edge) else { continue };
+                    flips += 1;
+                    left -= 1;
+                    for near in around {
+                        if !queued[near as usize] {
+                            queued[near as usize] = true;
+                            next.push(near);
+                        }
                     }
                 }
+                watch.tick(FLIP * flips)?;
             }
             round.clear();
             core::mem::swap(&mut round, &mut next);
         }
+        Ok(())
     }
 
     /// Whether the angles opposite to an edge add up to π at most. Edges that cannot be flipped are left as they are; one
@@ -183,25 +199,28 @@ impl Triangulation {
     }
 
     /// Half the cotangents opposite to every edge, summed; not negative where an edge has two triangles and is Delaunay.
-    pub(super) fn weights(&self) -> Vec<f64> {
+    pub(super) fn weights(&self, watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
         let mut weights = vec![0.0; self.sides.len()];
-        for (t, edges) in self.edges.iter().enumerate() {
-            // Lengths with their slack always leave an area, but a division must not depend on an argument.
-            if self.areas[t] == 0.0 {
-                continue;
-            }
-            for c in 0..3 {
-                let opposite = self.opposite((3 * t + c) as u32);
-                weights[edges[c] as usize] += opposite.four_areas_cotangent / (8.0 * self.areas[t]);
+        for range in ranges(self.edges.len(), TRIANGLE, watch) {
+            for t in range? {
+                // Lengths with their slack always leave an area, but a division must not depend on an argument.
+                if self.areas[t] == 0.0 {
+                    continue;
+                }
+                for (c, &edge) in self.edges[t].iter().enumerate() {
+                    let opposite = self.opposite((3 * t + c) as u32);
+                    weights[edge as usize] += opposite.four_areas_cotangent / (8.0 * self.areas[t]);
+                }
             }
         }
+        watch.tick(weights.len() as u64)?;
         for (edge, weight) in weights.iter_mut().enumerate() {
             if *weight < 0.0 && self.sides[edge][0] != NONE && self.is_delaunay(edge as u32) {
                 // By rounding.
                 *weight = 0.0;
             }
         }
-        weights
+        Ok(weights)
     }
 
     /// The vertices at the ends of an edge with two triangles, the smaller id first.

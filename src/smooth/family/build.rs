@@ -105,7 +105,7 @@ pub(super) fn start(
         let schedule = Schedule::of_filter(1);
         method.regularization(input, &mut schedule.stages(watch))?
     };
-    let system = systems.regularized(operators, &regularization.unknowns, &regularization.term)?;
+    let system = systems.regularized(operators, &regularization.unknowns, &regularization.term, watch)?;
     let matrices = Arc::clone(system.matrices());
     let sigma = (options.range.0 * options.range.1).sqrt();
     let channels: Vec<_> = input.channels.groups(&operators.mesh).flat_map(|(_, group)| group).collect();
@@ -125,7 +125,7 @@ pub(super) fn start(
         about: About { epsilon: None, ..regularization.about },
         values: input.channels.to_interleaved(),
         channels,
-        gaps: input.gaps.as_ref().map(|gaps| (Arc::clone(&gaps.missing), gaps.known.cloned())),
+        gaps: input.gaps.as_ref().map(|gaps| (Arc::clone(&gaps.missing), gaps.part.cloned())),
         left_out: None,
     };
     let growth = Growth::new(options.first(), options.tolerance, &matrices, &operators.active);
@@ -149,7 +149,7 @@ pub(super) fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>
     let matrices = Arc::clone(&family.matrices);
     let n = matrices.unknowns().len() as u64;
     memory::ensure(8 * n * ((8 * family.spaces.len() + 4 * TOGETHER) as u64))?;
-    let system = systems.regularized(&family.field.operators, matrices.unknowns(), matrices.term())?;
+    let system = systems.regularized(&family.field.operators, matrices.unknowns(), matrices.term(), watch)?;
     add_shift(family, system, watch)
 }
 

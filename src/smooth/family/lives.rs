@@ -92,8 +92,8 @@ impl Family {
         ended.sort_by(order);
         if let Some((part, _)) = &self.field.left_out {
             for life in &mut ended {
-                life.first_vertex = part.vertices[life.first_vertex as usize];
-                life.last_vertex = part.vertices[life.last_vertex as usize];
+                life.first_vertex = part.known.vertices[life.first_vertex as usize];
+                life.last_vertex = part.known.vertices[life.last_vertex as usize];
             }
         }
         plan.finish()?;

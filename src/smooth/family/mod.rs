@@ -83,7 +83,7 @@ impl Family {
         let make = &mut |input: &Input<'_>, systems: &mut Systems, method: &method::Method<'_>| {
             build::start(input, systems, method, options, watch)
         };
-        let (mut family, part) = method::on_input(operators, systems, masked, values, &method, make)?;
+        let (mut family, part) = method::on_input(operators, systems, masked, values, &method, watch, make)?;
         family.field.left_out = part.map(|part| (part, values.to_vec()));
         Ok(family)
     }
@@ -154,7 +154,12 @@ impl Family {
         self.check(epsilon)?;
         let field = &self.field;
         let gaps = field.gaps();
-        let channels = Channels::new(&field.operators.mesh, &field.values, field.channels.len(), gaps.as_ref())?;
+        let channels = Channels::new(
+            &field.operators.mesh,
+            &field.values,
+            field.channels.len(),
+            gaps.as_ref().map_or_else(Arc::default, |gaps| Arc::clone(&gaps.missing)),
+        )?;
         let input = Input { operators: &field.operators, channels, gaps };
         let about = About { epsilon: Some(epsilon), ..field.about.clone() };
         let schedule = Schedule::of_filter(input.channels.group_count());
@@ -216,7 +221,7 @@ impl Field {
 
     fn gaps(&self) -> Option<Gaps<'_>> {
         let (missing, known) = self.gaps.as_ref()?;
-        Some(Gaps { missing: Arc::clone(missing), known: known.as_ref() })
+        Some(Gaps { missing: Arc::clone(missing), part: known.as_ref() })
     }
 
     /// Values of the part that was smoothed among those of the whole mesh.
@@ -225,7 +230,7 @@ impl Field {
             None => values,
             Some((part, before)) => {
                 let mut whole = before.clone();
-                part.scatter(&values, self.channels.len(), &mut whole);
+                part.known.scatter(&values, self.channels.len(), &mut whole);
                 whole
             }
         }

@@ -1,7 +1,7 @@
 //! What a family is made with.
 
-use crate::error::OptionError;
 use super::choose::EpsilonRule;
+use crate::error::OptionError;
 use crate::mesh::{TriMesh, diagonal};
 use crate::smooth::operators::Operators;
 use crate::smooth::{LeastSquaresOptions, Method, Operator, TikhonovOptions, epsilon_for_wavelength};
@@ -86,8 +86,7 @@ impl<'a> FamilyOptions<'a> {
             Method::LeastSquares(options) => FamilyMethod::LeastSquares(options),
             _ => return Err(OptionError::invalid("method", "`tikhonov` or `leastSquares`, which have ε")),
         };
-        let tolerance =
-            if matches!(rule, EpsilonRule::AtMostCriticalPoints { .. }) { FOR_COUNTS } else { FOR_NORMS };
+        let tolerance = if matches!(rule, EpsilonRule::AtMostCriticalPoints { .. }) { FOR_COUNTS } else { FOR_NORMS };
         Ok(Self { method, range, tolerance, ..defaults })
     }
 }

@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::error::Cancelled;
+use crate::support::counting_sort::{Buckets, grouped};
 
 /// Bits of the number of a cell along one axis: three of them make a key.
 const BITS: u32 = 21;
@@ -22,7 +23,7 @@ pub(super) struct Grid {
     /// The keys of the cells that hold points, ascending.
     cells: Vec<u64>,
     /// Where the points of each begin.
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     /// The points, by cell and id.
     points: Vec<u32>,
 }
@@ -53,26 +54,20 @@ impl Grid {
         cells.sort_unstable();
         cells.dedup();
         // A counting sort by the place of the key: sorting pairs would be a second sort in the module.
-        let places: Vec<usize> = points.iter().map(|&v| cells.partition_point(|&cell| cell < key(v))).collect();
-        let mut starts = vec![0; cells.len() + 1];
-        for &place in &places {
-            starts[place + 1] += 1;
-        }
-        for place in 0..cells.len() {
-            starts[place + 1] += starts[place];
-        }
-        let mut next = starts.clone();
-        let mut sorted = vec![0; points.len()];
-        for (&v, &place) in points.iter().zip(&places) {
-            sorted[next[place]] = v;
-            next[place] += 1;
-        }
+        let places: Vec<u32> = points.iter().map(|&v| cells.partition_point(|&cell| cell < key(v)) as u32).collect();
+        let Buckets { offsets: starts, items: mut sorted } = grouped(&places, cells.len());
+        sorted.iter_mut().for_each(|place| *place = points[*place as usize]);
         Self { cells, starts, points: sorted }
     }
 
     /// The points in the order that ranges refer to.
     pub(super) fn points(&self) -> &[u32] {
         &self.points
+    }
+
+    /// Where the points of a cell begin.
+    fn start(&self, cell: usize) -> usize {
+        self.starts[cell] as usize
     }
 
     /// Goes through all cells, in the same order whenever it is called.
@@ -93,9 +88,9 @@ impl Grid {
                 while end[row] < self.cells.len() && self.cells[end[row]] <= middle + 1 {
                     end[row] += 1;
                 }
-                near[row] = self.starts[first[row]]..self.starts[end[row]];
+                near[row] = self.start(first[row])..self.start(end[row]);
             }
-            to(self.starts[place]..self.starts[place + 1], &near)?;
+            to(self.start(place)..self.start(place + 1), &near)?;
         }
         Ok(())
     }

@@ -64,7 +64,7 @@ pub(in crate::smooth) fn start(
     let (set, components) = constrained(input, &options.constraints, &mut stages)?;
     let mut free = components.remaining(&operators.active);
     free.retain(|v| set.vertices.binary_search(v).is_err());
-    let system = systems.reduced(operators, options.energy, &free)?;
+    let system = systems.reduced(operators, options.energy, &free, watch)?;
     let constrained = set.vertices.clone();
     let about = About {
         method: MethodName::Interpolate,

@@ -61,7 +61,7 @@ pub(in crate::smooth) fn start(
     });
     let mut stages = schedule.stages(watch);
     let Regularization { about, unknowns, term } = regularization(input, options, &mut stages)?;
-    let system = systems.regularized(operators, &unknowns, &term)?;
+    let system = systems.regularized(operators, &unknowns, &term, watch)?;
     let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
     run(input, &about, &mut procedure, stages)
 }

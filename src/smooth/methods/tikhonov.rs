@@ -98,7 +98,7 @@ pub(in crate::smooth) fn start(
 ) -> Result<Smoothed> {
     let operators = input.operators;
     let Regularization { about, unknowns, term } = regularization(input, options)?;
-    let system = systems.regularized(operators, &unknowns, &term)?;
+    let system = systems.regularized(operators, &unknowns, &term, watch)?;
     let (work, analysis, factorization) = system.forecast(options.epsilon, settings(operators.options, true));
     let groups = input.channels.group_count();
     let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });

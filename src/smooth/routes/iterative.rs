@@ -134,7 +134,11 @@ fn refined_within(
 ) -> Result<Vec<Iterate>, SolveError> {
     let n = task.problem.unknowns();
     let options = CgOptions { tolerance: CG_TOLERANCE, max_iterations, ..CgOptions::default() };
-    let mut apply = |x: &[f64]| task.problem.apply(x);
+    let mut apply = |x: &[f64]| {
+        // A product cannot fail: that it was stopped is heard right after it.
+        let _: Result<(), Cancelled> = watch.tick(task.problem.ticks());
+        task.problem.apply(x)
+    };
     let refinement = Refinement {
         count: task.right_hand_sides.len(),
         length: n,

@@ -12,13 +12,17 @@ pub(super) use regularized::{Matrices, RegularizedSystem};
 
 use super::names::{Route, UsedPrecision};
 use super::routes::{Answer, Problem, RightHandSide};
-use crate::error::{Error, OutOfMemory, SmoothError, SolveError};
+use crate::error::{Cancelled, Error, OutOfMemory, SmoothError, SolveError};
 use crate::support::memory;
+use crate::support::watch::Watch;
 
 /// Bytes of an entry of a sparse matrix, and those that solving takes for each unknown and channel beside the factor: the right-hand
 /// side, the solution, its residual and correction, each twice as long where the route is complex, and as complex numbers.
 const ENTRY: u64 = (size_of::<usize>() + size_of::<f64>()) as u64;
 const SOLVING: u64 = 128;
+
+/// The work with an entry of a matrix that is copied into a part of it.
+const COPIED: u64 = 10;
 
 /// Makes sure of the memory that solving takes beside the factor.
 fn ensure_solving(rows: usize, channels: usize) -> Result<(), OutOfMemory> {
@@ -49,26 +53,30 @@ pub(super) struct Solved {
 }
 
 /// The answer as solutions, with their residuals.
-fn solved(problem: &Problem<'_>, right_hand_sides: &[RightHandSide], answer: Answer) -> Solved {
-    let solutions = answer
-        .iterates
-        .into_iter()
-        .zip(right_hand_sides)
-        .map(|(iterate, side)| Solution {
+fn solved(
+    problem: &Problem<'_>,
+    right_hand_sides: &[RightHandSide],
+    answer: Answer,
+    watch: &Watch<'_>,
+) -> Result<Solved, Cancelled> {
+    let mut solutions = Vec::with_capacity(answer.iterates.len());
+    for (iterate, side) in answer.iterates.into_iter().zip(right_hand_sides) {
+        watch.tick(2 * problem.ticks())?;
+        solutions.push(Solution {
             relative_residual: problem.relative_residual(side, &iterate.x),
             refinement_steps: iterate.refinement_steps,
             iterations: iterate.iterations,
             x: iterate.x,
-        })
-        .collect();
-    Solved {
+        });
+    }
+    Ok(Solved {
         solutions,
         route: answer.route,
         precision: answer.precision,
         unknowns: problem.unknowns(),
         factor_nonzeros: answer.factor_nonzeros,
         smallest_eigenvalue: answer.smallest_eigenvalue,
-    }
+    })
 }
 
 /// A failure of the solver in the words of meshes, where unknowns are vertices.

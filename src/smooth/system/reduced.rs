@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{ENTRY, Solved, ensure_solving, on_mesh, solved};
+use super::{COPIED, ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::Result;
 use crate::operators::{MassScale, lumped_mass_diagonal};
 use crate::smooth::Operator;
@@ -15,6 +15,7 @@ use crate::smooth::schedule::Stages;
 use crate::solve::{columns, product, submatrix};
 use crate::support::memory;
 use crate::support::named::named;
+use crate::support::watch::Watch;
 
 /// What interpolation makes least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -57,10 +58,16 @@ enum Equations {
 }
 
 impl ReducedSystem {
-    pub(in crate::smooth) fn new(operators: &Operators, energy: Energy, free: &[u32]) -> Result<Self> {
+    pub(in crate::smooth) fn new(
+        operators: &Operators,
+        energy: Energy,
+        free: &[u32],
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         let laplacian = &operators.laplacian;
         // The matrix, and what is symmetric of it.
         memory::ensure(2 * ENTRY * laplacian.nnz() as u64)?;
+        watch.tick(COPIED * laplacian.nnz() as u64)?;
         let equations = match (energy, operators.is_symmetric()) {
             (Energy::Harmonic, true) => Equations::Harmonic,
             (Energy::Harmonic, false) => Equations::HarmonicSquared,
@@ -71,6 +78,7 @@ impl ReducedSystem {
                 Equations::Biharmonic { weights, symmetric_part }
             }
         };
+        watch.tick(COPIED * laplacian.nnz() as u64)?;
         let matrix = match energy {
             Energy::Harmonic => submatrix(laplacian, free),
             Energy::Biharmonic => columns(laplacian, free),
@@ -129,7 +137,7 @@ impl ReducedSystem {
         let problem = problem(&self.matrix, &self.equations);
         let task = Task { problem, key: &FactorKey::Plain, right_hand_sides: &right_hand_sides, settings };
         let answer = self.routes.solve(&task, stages).map_err(|error| on_mesh(&self.free, error))?;
-        Ok(solved(&problem, &right_hand_sides, answer))
+        Ok(solved(&problem, &right_hand_sides, answer, stages.watch)?)
     }
 
     /// c: what L makes of the fixed values alone.

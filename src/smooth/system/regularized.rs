@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra_sparse::CscMatrix;
 
-use super::{ENTRY, Solved, ensure_solving, on_mesh, solved};
+use super::{COPIED, ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::{Result, SmoothError};
 use crate::operators::{MassScale, lumped_mass_diagonal};
 use crate::smooth::Operator;
@@ -17,6 +17,7 @@ use crate::smooth::routes::{
 use crate::smooth::schedule::{Stages, Work};
 use crate::solve::submatrix;
 use crate::support::memory;
+use crate::support::watch::Watch;
 
 /// Below this, εB loses digits to underflow, and at last the right-hand side is zero.
 const SMALLEST_WEIGHT: f64 = f64::MIN_POSITIVE / f64::EPSILON;
@@ -47,9 +48,15 @@ pub(in crate::smooth) struct Matrices {
 
 impl RegularizedSystem {
     /// `unknowns`: ascending vertices that L ties to no others.
-    pub(in crate::smooth) fn new(operators: &Operators, unknowns: &[u32], term: &Arc<DataTerm>) -> Result<Self> {
+    pub(in crate::smooth) fn new(
+        operators: &Operators,
+        unknowns: &[u32],
+        term: &Arc<DataTerm>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         // L, and B with the matrix that it is cut from.
         memory::ensure(4 * ENTRY * operators.laplacian.nnz() as u64)?;
+        watch.tick(COPIED * operators.laplacian.nnz() as u64)?;
         let all = unknowns.len() == operators.laplacian.ncols();
         let laplacian = if all { operators.laplacian.clone() } else { submatrix(&operators.laplacian, unknowns) };
         let weights = match operators.options.operator {
@@ -63,7 +70,7 @@ impl RegularizedSystem {
             laplacian: Arc::new(laplacian),
             weights,
             is_symmetric: operators.is_symmetric(),
-            mass: term.matrix(&operators.mesh, unknowns)?,
+            mass: term.matrix(&operators.mesh, unknowns, watch)?,
             term: Arc::clone(term),
             unknowns: unknowns.into(),
         };
@@ -84,7 +91,12 @@ impl RegularizedSystem {
     }
 
     /// Takes another data term; analyses stay.
-    pub(in crate::smooth) fn set_term(&mut self, operators: &Operators, term: &Arc<DataTerm>) -> Result<()> {
+    pub(in crate::smooth) fn set_term(
+        &mut self,
+        operators: &Operators,
+        term: &Arc<DataTerm>,
+        watch: &Watch<'_>,
+    ) -> Result<()> {
         let matrices = &self.matrices;
         if matrices.term != *term {
             memory::ensure(3 * ENTRY * matrices.laplacian.nnz() as u64)?;
@@ -93,7 +105,7 @@ impl RegularizedSystem {
                 laplacian: Arc::clone(&matrices.laplacian),
                 weights: matrices.weights.clone(),
                 is_symmetric: matrices.is_symmetric,
-                mass: term.matrix(&operators.mesh, &matrices.unknowns)?,
+                mass: term.matrix(&operators.mesh, &matrices.unknowns, watch)?,
                 term: Arc::clone(term),
             });
         }
@@ -145,7 +157,7 @@ impl RegularizedSystem {
         }
         let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &right_hand_sides, settings };
         let answer = routes.solve(&task, stages).map_err(|error| on_mesh(unknowns, error))?;
-        Ok(solved(&problem, &right_hand_sides, answer))
+        Ok(solved(&problem, &right_hand_sides, answer, stages.watch)?)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::tree::{EliminationTree, Later, NONE};
 use crate::Watch;
 use crate::error::SolveError;
+use crate::support::counting_sort::{Buckets, grouped};
 use crate::support::memory;
 
 /// A row of a front that is gathered from the matrix or a child, and sorted.
@@ -266,25 +267,10 @@ struct Children {
 
 impl Children {
     fn new(count: usize, parent: impl Fn(usize) -> u32) -> Self {
-        let mut offsets = vec![0; count + 1];
-        let mut roots = Vec::new();
-        for g in 0..count {
-            match parent(g) {
-                NONE => roots.push(g as u32),
-                p => offsets[p as usize + 1] += 1,
-            }
-        }
-        for g in 0..count {
-            offsets[g + 1] += offsets[g];
-        }
-        let mut next = offsets.clone();
-        let mut children = vec![0; offsets[count] as usize];
-        for g in 0..count {
-            if let Some(place) = next.get_mut(parent(g) as usize) {
-                children[*place as usize] = g as u32;
-                *place += 1;
-            }
-        }
+        // Roots are the children of one more node behind the others.
+        let parents: Vec<u32> = (0..count).map(|g| parent(g).min(count as u32)).collect();
+        let Buckets { offsets, items: mut children } = grouped(&parents, count + 1);
+        let roots = children.split_off(offsets[count] as usize);
         Self { offsets, children, roots }
     }
 

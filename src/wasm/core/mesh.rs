@@ -4,6 +4,7 @@ use js_sys::{Array, Float64Array, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::options::{Constraining, from_rule};
+use super::reading::Reading;
 use super::reports;
 use super::watching::Watching;
 use crate::error::{FieldError, OutOfMemory};
@@ -11,13 +12,16 @@ use crate::mesh::{self, TriMesh};
 use crate::operators::{self, LaplacianWeights, MassOptions};
 use crate::smooth::{self, Unconstrained};
 use crate::support::memory;
-use crate::support::watch::Watch;
+use crate::support::watch::{Phase, Watch};
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::{floats, ids};
 use crate::wasm::shared::error::Thrown;
 use crate::wasm::shared::record::{Record, read};
 use crate::wasm::shared::warnings::diagnostics;
 use crate::wasm::shared::weld::{from_weld, weld};
+
+/// About the work with a triangle when a Laplacian is assembled.
+const LAPLACIAN: u64 = 200;
 
 /// A mesh in wasm memory.
 #[wasm_bindgen]
@@ -135,27 +139,36 @@ impl RawTriMesh {
         constraints: &JsValue,
         options: &JsValue,
     ) -> Result<JsValue, Thrown> {
-        let (channels, watching) =
-            read("", options, |record| (record.integer("channels").unwrap_or(1) as usize, Watching::read(record)))?;
+        let (channels, missing, watching) = read("", options, |record| {
+            let channels = record.integer("channels").unwrap_or(1) as usize;
+            (channels, record.choice("missing").unwrap_or_default(), Watching::read(record))
+        })?;
         let constraining = Constraining::read(constraints)?;
         let constraints = constraining.constraints(Unconstrained::Keep);
         let values = floats(values)?;
         let find = |watch: &Watch<'_>| {
-            smooth::constrained_vertices(&self.mesh, &values, channels, &constraints, watch).map_err(from_rule)
+            smooth::constrained_vertices(&self.mesh, &values, channels, missing, &constraints, watch).map_err(from_rule)
         };
         let vertices = watching.run(find)?;
         Ok(array(&vertices)?)
     }
 
     pub fn smoothness(&self, values: &Float64Array, options: &JsValue) -> Result<Object, Thrown> {
-        let weights = read("", options, weights)?;
-        let laplacian = operators::laplacian(&self.mesh, weights)?;
-        Ok(reports::energies(&smooth::smoothness(&laplacian, &floats(values)?)?))
+        let (reading, weights) = read("", options, |record| (Reading::read(record), weights(record)))?;
+        let energies = reading.of(&self.mesh, values, |field, watch| {
+            let mut plan = watch.plan(&[(Phase::Field, 1.0)]);
+            plan.begin(LAPLACIAN * field.mesh().triangle_count() as u64)?;
+            let laplacian = operators::laplacian(field.mesh(), weights, watch)?;
+            let energies = smooth::smoothness(&laplacian, field)?;
+            plan.finish()?;
+            Ok(energies)
+        })?;
+        Ok(reports::energies(&energies))
     }
 
     pub fn laplacian(&self, options: &JsValue) -> Result<Object, Thrown> {
         let weights = read("", options, weights)?;
-        Ok(reports::sparse(&operators::laplacian(&self.mesh, weights)?)?)
+        Ok(reports::sparse(&operators::laplacian(&self.mesh, weights, &Watch::none())?)?)
     }
 
     pub fn mass(&self, options: &JsValue) -> Result<Object, Thrown> {
@@ -163,6 +176,6 @@ impl RawTriMesh {
             kind: record.choice("kind").unwrap_or_default(),
             scale: record.choice("massScale").unwrap_or_default(),
         })?;
-        Ok(reports::sparse(&operators::mass(&self.mesh, &options)?)?)
+        Ok(reports::sparse(&operators::mass(&self.mesh, &options, &Watch::none())?)?)
     }
 }

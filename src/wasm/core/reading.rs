@@ -29,7 +29,9 @@ impl Reading {
         work: impl FnOnce(&ScalarField<'_>, &Watch<'_>) -> Result<T>,
     ) -> Result<T> {
         let values = floats(values)?;
-        let field = ScalarField::with_missing(mesh, &values, self.missing)?;
-        self.watching.run(|watch| work(&field, watch))
+        self.watching.run(|watch| {
+            let field = ScalarField::watched(mesh, &values, self.missing, watch)?;
+            work(&field, watch)
+        })
     }
 }

@@ -9,6 +9,7 @@ use super::reports;
 use super::watching::Watching;
 use crate::error::{OptionError, Result as Outcome};
 use crate::smooth::{MethodName, Smoothed, Smoother};
+use crate::support::watch::Watch;
 use crate::wasm::shared::answer::Answer;
 use crate::wasm::shared::arrays::floats;
 use crate::wasm::shared::error::Thrown;
@@ -31,8 +32,8 @@ impl RawSmoother {
 impl RawSmoother {
     #[wasm_bindgen(constructor)]
     pub fn new(mesh: &RawTriMesh, options: &JsValue) -> Result<Self, Thrown> {
-        let (options, _watching) = read("", options, |record| (smoother(record), Watching::read(record)))?;
-        Ok(Self { smoother: Smoother::new(mesh.mesh(), options)? })
+        let (options, watching) = read("", options, |record| (smoother(record), Watching::read(record)))?;
+        Ok(Self { smoother: watching.run(|watch| Smoother::watched(mesh.mesh(), options, watch))? })
     }
 
     /// Smooths by the method of that name.
@@ -42,7 +43,7 @@ impl RawSmoother {
         let (smoothing, watching) = read("", options, |record| {
             (Smoothing::read(record, method, operator).with_weights(record), Watching::read(record))
         })?;
-        Ok(run(&mut self.smoother, &smoothing, &watching, values)?)
+        Ok(watching.run(|watch| run(&mut self.smoother, &smoothing, watch, values))?)
     }
 }
 
@@ -61,17 +62,19 @@ pub fn smooth(mesh: &RawTriMesh, values: &Float64Array, options: &JsValue) -> Re
         });
         (options, smoothing, Watching::read(record))
     })?;
-    let mut smoother = Smoother::new(mesh.mesh(), options)?;
-    Ok(run(&mut smoother, &smoothing, &watching, values)?)
+    Ok(watching.run(|watch| {
+        let mut smoother = Smoother::watched(mesh.mesh(), options, watch)?;
+        run(&mut smoother, &smoothing, watch, values)
+    })?)
 }
 
-fn run(smoother: &mut Smoother, smoothing: &Smoothing, watching: &Watching, values: &Float64Array) -> Outcome<Object> {
+fn run(smoother: &mut Smoother, smoothing: &Smoothing, watch: &Watch<'_>, values: &Float64Array) -> Outcome<Object> {
     let values = floats(values)?;
     let method = smoothing.method();
-    let smoothed = watching.run(|watch| match smoothing.rule() {
+    let smoothed = match smoothing.rule() {
         None => smoother.apply(&values, &method, watch),
         Some(rule) => smoother.apply_chosen(&values, &method, rule, watch),
-    });
+    };
     answer(&smoothed.map_err(from_rule)?)
 }
 

@@ -28,6 +28,14 @@ pub(crate) const RULES: Rules = Rules {
     ],
     orders: &[
         (
+            "error",
+            &[
+                &["detail", "diagnostic", "interrupt", "stage"],
+                &["parse", "mesh", "field", "solve", "smooth", "option"],
+                &["mod"],
+            ],
+        ),
+        (
             "io",
             &[
                 &["formats", "mesh_data", "scan"],

@@ -10,7 +10,7 @@ const ENDS = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5] as const;
 /** A pixel is about this much of δ; more digits would be noise. */
 const DIGITS = 1e4;
 const KINDS = ['minima', 'maxima', 'saddles'] as const;
-const COLOURS = { minima: MINIMUM, maxima: MAXIMUM, saddles: SADDLE } as const;
+const COLORS = { minima: MINIMUM, maxima: MAXIMUM, saddles: SADDLE } as const;
 
 export interface CurveEvents {
   /** The mark is dragged or set. */
@@ -35,7 +35,7 @@ export class Curve {
     const lines = (['after', 'before'] as const).flatMap((side) =>
       KINDS.map((kind) => ({
         label: `${kind} ${side}`,
-        stroke: COLOURS[kind],
+        stroke: COLORS[kind],
         width: side === 'before' ? 2 : 1.25,
         ...(side === 'after' ? { dash: [5, 4] } : {}),
         paths: path,

@@ -3,7 +3,7 @@ import { MorseSmoothError } from 'morse-smooth';
 import type { Constraints, PersistencePairs, TriMesh } from 'morse-smooth';
 import { short } from '../dom';
 import { thresholdOf } from '../findings';
-import { onPart } from '../gaps';
+import { omitting } from '../gaps';
 import type { Found, Settings, Unsmoothed } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
 
@@ -29,7 +29,8 @@ function featuresOf(settings: Settings, values: Float64Array, pairs: Persistence
     case 'kMeans':
       return { from: 'kMeans', clusters, stars };
     case 'picked':
-      return { from: 'vertices', vertices: [...picked], stars };
+      // What was picked on another field may have no value on this one.
+      return { from: 'vertices', vertices: [...picked].filter((vertex) => !Number.isNaN(values[vertex])), stars };
   }
 }
 
@@ -39,16 +40,13 @@ export function findConstraints(
   values: Float64Array,
   pairs: PersistencePairs,
 ): Found {
-  return onPart(mesh, values, ({ mesh: part, values: known, into, back }) => {
-    const rule = featuresOf(settings, values, pairs);
-    const wanted = rule.from === 'vertices' ? { ...rule, vertices: into(rule.vertices) } : rule;
-    const found = part.constrainedVertices(known, wanted);
-    const all = settings.stars
-      ? part.constrainedVertices(known, { from: 'vertices', vertices: found, stars: true })
-      : found;
-    const features = back(found);
-    return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all: back(all) };
-  });
+  const rule = featuresOf(settings, values, pairs);
+  const holes = omitting(values);
+  const find = (wanted: Rules): Uint32Array<ArrayBuffer> =>
+    new Uint32Array(mesh.constrainedVertices(values, wanted, holes));
+  const features = find(rule);
+  const all = settings.stars ? find({ from: 'vertices', vertices: features, stars: true }) : features;
+  return { features, values: Float64Array.from(features, (vertex) => values[vertex]!), all };
 }
 
 const WAYS =

@@ -2,7 +2,7 @@
 import { Smoother } from 'morse-smooth';
 import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
 import { keptExtrema, thresholdOf } from '../findings';
-import { omitting, onPart } from '../gaps';
+import { omitting } from '../gaps';
 import type { Field } from '../gaps';
 import { rangeOf } from '../measures';
 import type { AfterReport, Found, Settings } from '../protocol';
@@ -127,8 +127,7 @@ export class Methods {
   }
 }
 
-const sobolevOf = (mesh: TriMesh, values: Float64Array): number =>
-  onPart(mesh, values, (part) => part.mesh.smoothness(part.values).sobolev);
+const sobolevOf = (mesh: TriMesh, values: Float64Array): number => mesh.smoothness(values, omitting(values)).sobolev;
 
 /** What the report needs to know of how the field was made. */
 function nameOf({ metric, energy, lowPass }: Settings): AfterReport['settings'] {

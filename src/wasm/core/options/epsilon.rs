@@ -85,7 +85,8 @@ impl FamilyChoice {
         let smoothing = Smoothing::read_with_default(record, method, operator).with_weights(record);
         record.foreign("the method does not have it", &|record| {
             for other in WithFamily::ALL {
-                let other = if *other == WithFamily::Tikhonov { MethodName::Tikhonov } else { MethodName::LeastSquares };
+                let other =
+                    if *other == WithFamily::Tikhonov { MethodName::Tikhonov } else { MethodName::LeastSquares };
                 Smoothing::read_with_default(record, other, operator).with_weights(record);
             }
         });

@@ -6,8 +6,8 @@ use super::Constraining;
 use super::epsilon::epsilon;
 use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, MethodName, Metric,
-    Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
+    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
+    MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
 use crate::wasm::shared::arrays::floats;
