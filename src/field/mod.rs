@@ -31,3 +31,4 @@ pub use order::{Threshold, ValueRange, VertexOrder, value_range};
 pub use persistence::{PersistenceCurve, PersistenceDiagram, PersistencePair, persistence};
 pub use scalar_field::{Missing, ScalarField};
 pub use simplify::{Keep, Simplified, simplify};
+pub(crate) use sorting::{ascending_bits, sort_by_key, sort_by_value};

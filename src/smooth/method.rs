@@ -199,9 +199,13 @@ pub(super) fn apply(
     method: &Method<'_>,
     watch: &Watch<'_>,
 ) -> Result<Smoothed> {
-    let start =
-        &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| method.start(input, systems, watch);
-    let (smoothed, part) = on_input(operators, systems, masked, values, method, watch, start)?;
+    let mut smoothed = None;
+    let start = &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| {
+        smoothed = Some(method.start(input, systems, watch)?);
+        Ok(())
+    };
+    let part = on_input(operators, systems, masked, values, method, watch, start)?;
+    let Some(smoothed) = smoothed else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
     Ok(match part {
         None => smoothed,
         Some(part) => {
@@ -214,15 +218,15 @@ pub(super) fn apply(
 
 /// Does something with the field that a method smooths, and with its systems: with what is missing left out or to be filled in, as the
 /// method's options say. Where it is left out, the method's constraints are vertices of the part that is returned.
-pub(super) fn on_input<T>(
+pub(super) fn on_input(
     operators: &Arc<Operators>,
     systems: &mut Systems,
     masked: &mut Masked,
     values: &[f64],
     method: &Method<'_>,
     watch: &Watch<'_>,
-    work: &mut dyn FnMut(&Input<'_>, &mut Systems, &Method<'_>) -> Result<T>,
-) -> Result<(T, Option<Arc<Part>>)> {
+    work: &mut dyn FnMut(&Input<'_>, &mut Systems, &Method<'_>) -> Result<()>,
+) -> Result<Option<Arc<Part>>> {
     method.check(operators.options)?;
     watch.prepare(Phase::Analysis);
     let (mesh, channels) = (&operators.mesh, method.channels());
@@ -234,13 +238,15 @@ pub(super) fn on_input<T>(
     };
     if missing.is_empty() {
         let input = Input { operators, channels: Channels::new(mesh, values, channels, Arc::default())?, gaps: None };
-        return Ok((work(&input, systems, method)?, None));
+        work(&input, systems, method)?;
+        return Ok(None);
     }
     let mask = masked.get(mesh, &missing, operators.options, watch)?;
     if method.missing() == Missing::Fill {
         let gaps = Gaps { missing: Arc::clone(&mask.missing), part: mask.part.as_ref() };
         let channels = Channels::new(mesh, values, channels, Arc::clone(&gaps.missing))?;
-        return Ok((work(&Input { operators, channels, gaps: Some(gaps) }, systems, method)?, None));
+        work(&Input { operators, channels, gaps: Some(gaps) }, systems, method)?;
+        return Ok(None);
     }
     let Some(part) = &mask.part else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
     let Part { known, operators } = &**part;
@@ -254,6 +260,6 @@ pub(super) fn on_input<T>(
     let of_part = known.gather(values, channels);
     let channels_of_part = Channels::new(&known.mesh, &of_part, channels, Arc::default())?;
     let input = Input { operators, channels: channels_of_part, gaps: None };
-    let done = work(&input, &mut mask.systems, &method).map_err(|error| to_whole(&known.vertices, error))?;
-    Ok((done, Some(Arc::clone(part))))
+    work(&input, &mut mask.systems, &method).map_err(|error| to_whole(&known.vertices, error))?;
+    Ok(Some(Arc::clone(part)))
 }

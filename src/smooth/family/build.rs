@@ -263,8 +263,9 @@ fn kernel(field_mass: &[f64], matrices: &Matrices, active: &ActiveVertices) -> V
 fn kernel_of_traces(probes: &[Vec<f64>], matrices: &Matrices, active: &ActiveVertices) -> (f64, f64) {
     let of_probe = |z: &Vec<f64>| dot(z, &kernel(&matrices.mass().times(z), matrices, active));
     let by_probes = probes.iter().map(of_probe).sum::<f64>() / probes.len().max(1) as f64;
-    let mut components: Vec<usize> = matrices.unknowns().iter().filter_map(|&v| active.component(v)).collect();
-    components.sort_unstable();
-    components.dedup();
-    (by_probes, components.len() as f64)
+    let mut is_there = vec![false; active.first_vertices().len()];
+    for component in matrices.unknowns().iter().filter_map(|&v| active.component(v)) {
+        is_there[component] = true;
+    }
+    (by_probes, is_there.into_iter().filter(|&there| there).count() as f64)
 }

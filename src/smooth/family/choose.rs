@@ -1,5 +1,7 @@
 //! Choosing ε.
 
+use core::f64::consts::LN_10;
+
 use super::Family;
 use super::estimate::logarithmic;
 use super::space::Space;
@@ -78,7 +80,7 @@ impl Family {
         match rule {
             EpsilonRule::Gcv => Ok(self.by_cross_validation()),
             EpsilonRule::LCurve => Ok(self.by_l_curve()),
-            EpsilonRule::Discrepancy { noise } => Ok(self.by_discrepancy(noise)),
+            EpsilonRule::Discrepancy { noise } => self.by_discrepancy(noise, watch),
             EpsilonRule::AtMostCriticalPoints { count } => self.by_count(count, watch),
         }
     }
@@ -105,10 +107,11 @@ impl Family {
         };
         let scores: Vec<f64> = grid.iter().map(score).collect();
         let opposite: Vec<f64> = scores.iter().map(|score| -score).collect();
-        let mut places = peaks(&opposite);
+        let places = peaks(&opposite);
         // At the ends both parts of the quotient vanish, or are known badly: an end is taken only where there is nothing between.
-        places.sort_by_key(|&place| place == 0 || place + 1 == grid.len());
-        places.into_iter().map(|place| grid[place]).collect()
+        let is_end = |place: &usize| *place == 0 || *place + 1 == grid.len();
+        let (ends, between): (Vec<usize>, Vec<usize>) = places.into_iter().partition(is_end);
+        between.into_iter().chain(ends).map(|place| grid[place]).collect()
     }
 
     fn by_cross_validation(&self) -> ChosenEpsilon {
@@ -116,8 +119,9 @@ impl Family {
         let minima = self.minima_of_cross_validation(&traces);
         let epsilon = minima.first().copied().unwrap_or(self.range.1);
         let reason = format!(
-            "Generalised cross-validation is least at ε = {epsilon:.3e}, where the smoothed field has {:.0} of {} degrees of freedom{}.",
-            traces.at(epsilon),
+            "Generalised cross-validation is least at ε = {}, where the smoothed field has {} of {} degrees of freedom{}.",
+            rounded(epsilon),
+            traces.at(epsilon).round() as u64,
             self.growth.known,
             self.at_the_end(epsilon),
         );
@@ -138,7 +142,8 @@ impl Family {
         match corners.first() {
             Some(&epsilon) => {
                 let reason = format!(
-                    "The L-curve of ‖x − f‖ and ‖Lx‖ has its corner, the point of largest curvature, at ε = {epsilon:.3e}{}.",
+                    "The L-curve of ‖x − f‖ and ‖Lx‖ has its corner, the point of largest curvature, at ε = {}{}.",
+                    rounded(epsilon),
                     self.at_the_end(epsilon),
                 );
                 EpsilonRule::LCurve.chosen(epsilon, reason, runners_up(&corners))
@@ -146,15 +151,16 @@ impl Family {
             None => {
                 let epsilon = self.range.1;
                 let reason = format!(
-                    "The L-curve has no corner between ε = {:.3e} and {epsilon:.3e}: nothing tells noise from field, and the least is changed.",
-                    self.range.0
+                    "The L-curve has no corner between ε = {} and {}: nothing tells noise from field, and the least is changed.",
+                    rounded(self.range.0),
+                    rounded(epsilon),
                 );
                 EpsilonRule::LCurve.chosen(epsilon, reason, Vec::new())
             }
         }
     }
 
-    fn by_discrepancy(&self, noise: Option<f64>) -> ChosenEpsilon {
+    fn by_discrepancy(&self, noise: Option<f64>, watch: &Watch<'_>) -> Result<ChosenEpsilon> {
         let traces = self.traces();
         let known = self.growth.known as f64;
         let lengths: Vec<f64> = self.field.channels.iter().map(|channel| channel.range.length()).collect();
@@ -180,20 +186,23 @@ impl Family {
         let (what, noise) = match noise {
             Some(_) => ("the given noise", None),
             None => {
-                let by_differences = self.noise_by_differences(0) * lengths[0];
+                let by_differences = self.noise_by_differences(0, watch)? * lengths[0];
                 ("the noise estimated from the field", Some(NoiseLevel::new(level, by_differences)))
             }
         };
         let reason = match found {
             Some(_) => format!(
-                "At ε = {epsilon:.3e} and no larger one, what smoothing takes away is as large as {what}, of standard deviation {level:.3e}{}.",
+                "At ε = {} and no larger one, what smoothing takes away is as large as {what}, of standard deviation {}{}.",
+                rounded(epsilon),
+                rounded(level),
                 self.at_the_end(epsilon),
             ),
             None => format!(
-                "Even the least ε takes away less than {what}, of standard deviation {level:.3e}: the field varies less."
+                "Even the least ε takes away less than {what}, of standard deviation {}: the field varies less.",
+                rounded(level),
             ),
         };
-        ChosenEpsilon { noise, ..EpsilonRule::Discrepancy { noise: None }.chosen(epsilon, reason, Vec::new()) }
+        Ok(ChosenEpsilon { noise, ..EpsilonRule::Discrepancy { noise: None }.chosen(epsilon, reason, Vec::new()) })
     }
 
     fn by_count(&self, most: usize, watch: &Watch<'_>) -> Result<ChosenEpsilon> {
@@ -209,7 +218,8 @@ impl Family {
             }
             if count <= most {
                 let reason = format!(
-                    "ε = {epsilon:.3e} is the largest one, of {COUNTS_PER_DECADE} in each decade, whose field has no more than {most} critical points: it has {count}."
+                    "ε = {} is the largest one, of {COUNTS_PER_DECADE} in each decade, whose field has no more than {most} critical points: it has {count}.",
+                    rounded(epsilon),
                 );
                 return Ok(EpsilonRule::AtMostCriticalPoints { count: most }.chosen(epsilon, reason, Vec::new()));
             }
@@ -259,9 +269,35 @@ fn peaks(values: &[f64]) -> Vec<usize> {
     let is_peak = |&k: &usize| {
         values[k].is_finite() && below(k.checked_sub(1), values[k], false) && below(Some(k + 1), values[k], true)
     };
-    let mut places: Vec<usize> = (0..values.len()).filter(is_peak).collect();
-    places.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let mut places: Vec<usize> = Vec::new();
+    for k in (0..values.len()).filter(is_peak) {
+        places.insert(places.partition_point(|&other| values[other] >= values[k]), k);
+    }
     places
+}
+
+/// A positive number with four digits, for people.
+fn rounded(number: f64) -> String {
+    let mut exponent = (libm::log(number) / LN_10).floor() as i32;
+    let shifted = |exponent: i32| {
+        let power = (0..exponent.abs()).fold(1.0, |power, _| power * 10.0);
+        if exponent > 0 { number / power } else { number * power }
+    };
+    let mut digits = (1000.0 * shifted(exponent)).round();
+    if digits >= 10_000.0 {
+        exponent += 1;
+        digits = (1000.0 * shifted(exponent)).round();
+    }
+    if !(1.0..10_000.0).contains(&digits) {
+        return format!("{number:e}");
+    }
+    let digits = (digits as u32).to_string();
+    let text = match exponent {
+        0..=2 => format!("{}.{}", &digits[..=exponent as usize], &digits[exponent as usize + 1..]),
+        -3..=-1 => format!("0.{}{digits}", &"00"[..(-1 - exponent) as usize]),
+        _ => return format!("{}.{}e{exponent}", &digits[..1], &digits[1..]),
+    };
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn runners_up(all: &[f64]) -> Vec<f64> {

@@ -5,6 +5,8 @@
 //! better. What an error is for its residual is nearly the same in both: so the errors of the small space, times the quotient of
 //! the two residuals, tell those of the large one. The quotient is measured at one ε.
 
+use core::f64::consts::LN_10;
+
 use super::space::{Space, Which};
 use crate::smooth::routes::RightHandSide;
 use crate::smooth::system::Matrices;
@@ -25,9 +27,9 @@ pub(super) struct Calibration(f64);
 
 /// ε in equal steps of their logarithms, both ends included.
 pub(super) fn logarithmic(range: (f64, f64), per_decade: f64) -> Vec<f64> {
-    let (first, last) = (libm::log10(range.0), libm::log10(range.1));
-    let steps = ((last - first) * per_decade).ceil().max(1.0) as usize;
-    let at = |k: usize| libm::pow(10.0, first + (last - first) * k as f64 / steps as f64);
+    let (first, last) = (libm::log(range.0), libm::log(range.1));
+    let steps = ((last - first) / LN_10 * per_decade).ceil().max(1.0) as usize;
+    let at = |k: usize| libm::exp(first + (last - first) * k as f64 / steps as f64);
     (0..=steps)
         .map(|k| {
             if k == 0 {

@@ -3,7 +3,7 @@
 use super::Family;
 use super::estimate::logarithmic;
 use crate::error::{OptionError, Result};
-use crate::field::{Basins, ScalarField, Threshold, basins};
+use crate::field::{Basins, ScalarField, Threshold, ascending_bits, basins, sort_by_key};
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
@@ -51,10 +51,9 @@ impl Family {
             let values = self.channel_values(epsilon, channel);
             let field = ScalarField::with_missing(mesh, &values, self.field.missing_after())?;
             let Basins { descending, ascending } = basins(&field, Threshold::Relative(0.0), watch)?;
-            // Who is at each vertex that is an extremum now; the first to come has lived longest.
+            // Who is at each vertex that is an extremum now; the first to come has lived longest, as those born later were put after it.
             let mut next: Vec<ExtremumLife> = Vec::with_capacity(living.len());
             let mut is_taken = vec![false; 2 * n];
-            living.sort_by(|a, b| b.largest.total_cmp(&a.largest));
             for life in living.drain(..) {
                 let ends = if life.is_maximum { &ascending } else { &descending };
                 let end = ends[life.last_vertex as usize];
@@ -85,11 +84,13 @@ impl Family {
             living = next;
         }
         ended.append(&mut living);
-        let order = |a: &ExtremumLife, b: &ExtremumLife| {
-            let lengths = (b.largest / b.least).total_cmp(&(a.largest / a.least));
-            lengths.then(a.least.total_cmp(&b.least)).then(a.first_vertex.cmp(&b.first_vertex))
-        };
-        ended.sort_by(order);
+        let mut ranking: Vec<u32> = (0..ended.len() as u32).collect();
+        let life = |place: u32| &ended[place as usize];
+        // From the last criterion to the first: each sort leaves the order of what is equal.
+        sort_by_key(&mut ranking, &|place| u64::from(life(place).first_vertex), watch)?;
+        sort_by_key(&mut ranking, &|place| ascending_bits(life(place).least), watch)?;
+        sort_by_key(&mut ranking, &|place| ascending_bits(-life(place).largest / life(place).least), watch)?;
+        let mut ended: Vec<ExtremumLife> = ranking.iter().map(|&place| *life(place)).collect();
         if let Some((part, _)) = &self.field.left_out {
             for life in &mut ended {
                 life.first_vertex = part.known.vertices[life.first_vertex as usize];

@@ -36,7 +36,7 @@ use super::run::{Found, Procedure, Solution, run, whole};
 use super::schedule::{Schedule, Stages};
 use super::system::Matrices;
 use super::systems::Systems;
-use crate::error::{OptionError, Result};
+use crate::error::{MeshError, OptionError, Result};
 use crate::field::Missing;
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
@@ -80,10 +80,13 @@ impl Family {
     ) -> Result<Self> {
         options.check()?;
         let method = options.method.method();
+        let mut made = None;
         let make = &mut |input: &Input<'_>, systems: &mut Systems, method: &method::Method<'_>| {
-            build::start(input, systems, method, options, watch)
+            made = Some(build::start(input, systems, method, options, watch)?);
+            Ok(())
         };
-        let (mut family, part) = method::on_input(operators, systems, masked, values, &method, watch, make)?;
+        let part = method::on_input(operators, systems, masked, values, &method, watch, make)?;
+        let Some(mut family) = made else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
         family.field.left_out = part.map(|part| (part, values.to_vec()));
         Ok(family)
     }

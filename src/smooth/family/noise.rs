@@ -1,8 +1,11 @@
 //! How much noise a field has, told from the field.
 
 use super::Family;
+use crate::error::FieldError;
+use crate::field::sort_by_value;
 use crate::mesh::Connectivity;
 use crate::support::counting_sort::{Buckets, grouped};
+use crate::support::watch::Watch;
 
 /// The median of |x| for a normal distribution of standard deviation 1.
 const MEDIAN: f64 = 0.674_489_750_196_081_7;
@@ -12,7 +15,7 @@ impl Family {
     ///
     /// With D the difference of a vertex from the mean of its neighbours, D² takes away what varies slowly; the values of D²f over the
     /// norms of the rows of D² are normal where the noise is, and their median tells its standard deviation.
-    pub(super) fn noise_by_differences(&self, channel: usize) -> f64 {
+    pub(super) fn noise_by_differences(&self, channel: usize, watch: &Watch<'_>) -> Result<f64, FieldError> {
         let field = &self.field;
         let connectivity = field.operators.mesh.connectivity();
         let neighbours = Neighbours::new(connectivity);
@@ -59,11 +62,11 @@ impl Family {
             }
         }
         if sizes.is_empty() {
-            return 0.0;
+            return Ok(0.0);
         }
-        let middle = sizes.len() / 2;
-        let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        *median / MEDIAN
+        let mut order: Vec<u32> = (0..sizes.len() as u32).collect();
+        sort_by_value(&mut order, &sizes, watch)?;
+        Ok(sizes[order[order.len() / 2] as usize] / MEDIAN)
     }
 }
 

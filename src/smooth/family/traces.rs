@@ -20,10 +20,10 @@ impl Traces {
         let share = |trace: f64| ((trace - least) / (most - least)).clamp(END, 1.0 - END);
         let logit = |trace: f64| libm::log(share(trace) / (1.0 - share(trace)));
         let mut knots: Vec<[f64; 3]> = Vec::with_capacity(shifts.len());
-        if most > least {
-            knots.extend(shifts.iter().zip(traces).map(|(shift, &trace)| [libm::log(*shift), logit(trace), 0.0]));
+        for (shift, &trace) in shifts.iter().zip(traces).filter(|_| most > least) {
+            let at = libm::log(*shift);
+            knots.insert(knots.partition_point(|knot| knot[0] < at), [at, logit(trace), 0.0]);
         }
-        knots.sort_by(|a, b| a[0].total_cmp(&b[0]));
         // Probes have a little noise: traces never fall with ε.
         for k in 1..knots.len() {
             knots[k][1] = knots[k][1].max(knots[k - 1][1]);
