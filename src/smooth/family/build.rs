@@ -121,6 +121,7 @@ pub(super) fn start(
         spaces.push(space);
     }
     let field = Field {
+        home: Arc::clone(operators),
         operators: Arc::clone(operators),
         about: About { epsilon: None, ..regularization.about },
         values: input.channels.to_interleaved(),
@@ -224,7 +225,10 @@ fn extend(spaces: &mut [Space], added: Vec<[Vec<f64>; 3]>, matrices: &Matrices, 
             space.add(kind, vector, matrices, watch)?;
         }
     }
-    spaces.iter_mut().try_for_each(Space::project)
+    // One that cannot be projected leaves those of the others as they were, too.
+    let projections = spaces.iter().map(Space::projections).collect::<Result<Vec<_>>>()?;
+    spaces.iter_mut().zip(projections).for_each(|(space, projections)| space.project(projections));
+    Ok(())
 }
 
 /// What counts of the unknowns where a field is compared with its data: all alike, or what the data term reaches, by its weights.

@@ -58,6 +58,9 @@ pub struct Family {
 /// What is smoothed, and what is known of it.
 #[derive(Debug)]
 struct Field {
+    /// Those of the smoother, by which it is known.
+    home: Arc<Operators>,
+    /// The same, or those of the part that is smoothed.
     operators: Arc<Operators>,
     about: About,
     /// Interleaved.
@@ -85,6 +88,7 @@ impl Family {
             build::start(input, systems, method, options, watch)
         };
         let (mut family, part) = method::on_input(operators, systems, masked, values, &method, make)?;
+        family.field.home = Arc::clone(operators);
         family.field.left_out = part.map(|part| (part, values.to_vec()));
         Ok(family)
     }
@@ -126,6 +130,18 @@ impl Family {
     pub fn error_at(&self, epsilon: f64) -> Result<f64, OptionError> {
         self.check(epsilon)?;
         Ok(self.growth.error(&self.spaces, epsilon))
+    }
+
+    /// How many degrees of freedom the field of an ε has: the trace of the matrix (S + εB)⁻¹εB that smooths, between the number of components
+    /// (ε → 0) and that of the values that the data term knows (ε → ∞).
+    ///
+    /// It is known at the shifts, by a few vectors with random signs, and interpolated between them. Every channel has as many.
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range.
+    pub fn degrees_of_freedom(&self, epsilon: f64) -> Result<f64, OptionError> {
+        self.check(epsilon)?;
+        Ok(self.traces().at(epsilon))
     }
 
     /// The smoothed values for an ε, interleaved as the input: one product with the basis of the space.
@@ -172,13 +188,15 @@ impl Family {
         masked: &mut Masked,
         watch: &Watch<'_>,
     ) -> Result<bool> {
+        if !Arc::ptr_eq(operators, &self.field.home) {
+            return Err(OptionError::invalid("family", "a family of this smoother").into());
+        }
         let systems = match &self.field.left_out {
-            None if Arc::ptr_eq(operators, &self.field.operators) => systems,
+            None => systems,
             Some((part, _)) => match masked.of_part(part) {
                 Some(systems) => systems,
                 None => &mut Systems::default(),
             },
-            None => return Err(OptionError::invalid("family", "a family of this smoother").into()),
         };
         build::grow(self, systems, watch)?;
         Ok(self.growth.is_complete)
