@@ -112,7 +112,7 @@ impl Family {
         match rule {
             EpsilonRule::Gcv => Ok(self.by_cross_validation()),
             EpsilonRule::LCurve => Ok(self.by_l_curve()),
-            EpsilonRule::Discrepancy { noise } => Ok(self.by_discrepancy(noise)),
+            EpsilonRule::Discrepancy { noise } => self.by_discrepancy(noise),
             EpsilonRule::AtMostCriticalPoints { count } => self.by_count(count, watch),
         }
     }
@@ -189,7 +189,7 @@ impl Family {
         }
     }
 
-    fn by_discrepancy(&self, noise: Option<f64>) -> ChosenEpsilon {
+    fn by_discrepancy(&self, noise: Option<f64>) -> Result<ChosenEpsilon> {
         let traces = self.traces();
         let known = self.growth.known as f64;
         let lengths: Vec<f64> = self.field.channels.iter().map(|channel| channel.range.length()).collect();
@@ -215,7 +215,7 @@ impl Family {
         let (what, noise) = match noise {
             Some(_) => ("the given noise", None),
             None => {
-                let by_differences = self.noise_by_differences(0) * lengths[0];
+                let by_differences = self.noise_by_differences(0)? * lengths[0];
                 ("the noise estimated from the field", Some(NoiseLevel::new(level, by_differences)))
             }
         };
@@ -228,7 +228,8 @@ impl Family {
                 "Even the least ε takes away less than {what}, of standard deviation {level:.3e}: the field varies less."
             ),
         };
-        ChosenEpsilon { noise, ..EpsilonRule::Discrepancy { noise: None }.chosen(epsilon, reason, Vec::new()) }
+        let chosen = EpsilonRule::Discrepancy { noise: None }.chosen(epsilon, reason, Vec::new());
+        Ok(ChosenEpsilon { noise, ..chosen })
     }
 
     fn by_count(&self, most: usize, watch: &Watch<'_>) -> Result<ChosenEpsilon> {

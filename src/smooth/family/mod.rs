@@ -151,8 +151,8 @@ impl Family {
     pub fn values(&self, epsilon: f64) -> Result<Vec<f64>> {
         self.check(epsilon)?;
         let field = &self.field;
-        // The result, that of the part, and one channel's normalised values twice and in the units of the input.
-        memory::ensure(16 * field.values.len() as u64 + 32 * field.operators.mesh.vertex_count() as u64)?;
+        // The result, that of the whole mesh, and what one channel takes.
+        memory::ensure(8 * (field.values.len() + field.count_before()) as u64 + self.channel_bytes())?;
         let mut values = field.values.clone();
         for c in 0..field.channels.len() {
             let restored = self.channel_values(epsilon, c);
@@ -170,6 +170,9 @@ impl Family {
     pub fn at(&self, epsilon: f64, watch: &Watch<'_>) -> Result<Smoothed> {
         self.check(epsilon)?;
         let field = &self.field;
+        // The result, that of the whole mesh, and what is said of all ε alike.
+        let n = field.operators.mesh.vertex_count();
+        memory::ensure(8 * (field.values.len() + field.count_before() + 2 * n) as u64)?;
         let gaps = field.gaps();
         let channels = Channels::new(&field.operators.mesh, &field.values, field.channels.len(), gaps.as_ref())?;
         let input = Input { operators: &field.operators, channels, gaps };
@@ -202,6 +205,11 @@ impl Family {
         Ok(self.growth.is_complete)
     }
 
+    /// What the values of one channel take: at the unknowns, normalised, and in the units of the input; and lists of vertices.
+    fn channel_bytes(&self) -> u64 {
+        32 * self.field.operators.mesh.vertex_count() as u64
+    }
+
     /// The smoothed values of one channel.
     fn channel_values(&self, epsilon: f64, channel: usize) -> Vec<f64> {
         self.whole(channel, &self.spaces[channel].solution(epsilon, Which::Full)).1
@@ -226,6 +234,11 @@ impl Field {
     /// Whether a value is to be filled in.
     fn is_missing(&self, vertex: usize) -> bool {
         self.gaps.as_ref().is_some_and(|(missing, _)| missing.binary_search(&(vertex as u32)).is_ok())
+    }
+
+    /// How many values there are on the whole mesh, where missing ones were left out.
+    fn count_before(&self) -> usize {
+        self.left_out.as_ref().map_or(0, |(_, before)| before.len())
     }
 
     /// What NaN means in smoothed values: components without any value may have kept it.

@@ -1,8 +1,10 @@
 //! How much noise a field has, told from the field.
 
 use super::Family;
+use crate::error::OutOfMemory;
 use crate::mesh::Connectivity;
 use crate::support::counting_sort::{Buckets, grouped};
+use crate::support::memory;
 use crate::support::named::named;
 
 /// How far two ways of finding the level of the noise agree.
@@ -55,9 +57,11 @@ impl Family {
     ///
     /// With D the difference of a vertex from the mean of its neighbours, D² takes away what varies slowly; the values of D²f over the
     /// norms of the rows of D² are normal where the noise is, and their median tells its standard deviation.
-    pub(super) fn noise_by_differences(&self, channel: usize) -> f64 {
+    pub(super) fn noise_by_differences(&self, channel: usize) -> Result<f64, OutOfMemory> {
         let field = &self.field;
         let connectivity = field.operators.mesh.connectivity();
+        // Neighbours, twice in between; differences, a row, and what it is all about.
+        memory::ensure(24 * connectivity.edges().len() as u64 + 40 * connectivity.vertex_count() as u64)?;
         let neighbours = Neighbours::new(connectivity);
         let values = &field.channels[channel].normalized;
         let n = values.len();
@@ -68,7 +72,7 @@ impl Family {
             })
             .collect();
         let mut row = vec![0.0; n];
-        let mut sizes = Vec::new();
+        let mut sizes = Vec::with_capacity(n);
         for v in 0..n {
             let around = neighbours.of(v);
             let reaches = |w: u32| field.is_missing(w as usize) || neighbours.of(w as usize).is_empty();
@@ -102,11 +106,11 @@ impl Family {
             }
         }
         if sizes.is_empty() {
-            return 0.0;
+            return Ok(0.0);
         }
         let middle = sizes.len() / 2;
         let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        *median / MEDIAN
+        Ok(*median / MEDIAN)
     }
 }
 
