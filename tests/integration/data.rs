@@ -21,7 +21,7 @@ use serde_json::Value;
 
 use crate::analyses::{critical_points, delta_hierarchy, largest_edge_difference, level_sets, persistence, simplify};
 
-fn folder() -> Option<PathBuf> {
+pub(crate) fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("MORSE_SMOOTH_DATA")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
     folder.join("expected.json").is_file().then_some(folder)
@@ -31,7 +31,7 @@ fn folder() -> Option<PathBuf> {
 const PLATEAUS: [&str; 2] = ["jacksboro_dem.ply", "disk_flow_surface.vtk"];
 
 /// Written past the test harness, which would swallow it where the test passes.
-fn say(words: &str) {
+pub(crate) fn say(words: &str) {
     let _ = writeln!(std::io::stderr(), "{words}");
 }
 
@@ -67,7 +67,7 @@ fn counts(value: &Value) -> [u32; 3] {
     [at(0), at(1), at(2)]
 }
 
-fn as_array(counts: &CriticalCounts) -> [u32; 3] {
+pub(crate) fn as_array(counts: &CriticalCounts) -> [u32; 3] {
     [counts.minima, counts.maxima, counts.saddles]
 }
 
@@ -315,13 +315,13 @@ fn check_smoothing(
     }
 }
 
-fn read(folder: &Path, file: &str) -> LoadedMesh {
+pub(crate) fn read(folder: &Path, file: &str) -> LoadedMesh {
     let bytes = std::fs::read(folder.join(file)).expect("a file of the data folder");
     load(&bytes, &LoadOptions::default()).expect("a mesh")
 }
 
 /// A field of the mesh file, or the text file beside it.
-fn values(folder: &Path, file: &str, loaded: &LoadedMesh, name: &str) -> Vec<f64> {
+pub(crate) fn values(folder: &Path, file: &str, loaded: &LoadedMesh, name: &str) -> Vec<f64> {
     if let Some((_, values)) = loaded.fields.iter().find(|(field, _)| field == name) {
         return values.clone();
     }

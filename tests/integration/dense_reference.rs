@@ -146,19 +146,22 @@ impl Reference {
     /// Solves (LᵀWL + εΔ) x = εΔf; components without a constrained vertex stay. `pull` has Δ for every vertex.
     pub(crate) fn least_squares(&self, f: &[f64], pull: &[f64], epsilon: f64) -> Vec<f64> {
         let constrained: Vec<u32> = (0..pull.len() as u32).filter(|&v| pull[v as usize] > 0.0).collect();
-        let unknowns = self.reached(&constrained);
-        let a = self.laplacian.select_rows(&unknowns).select_columns(&unknowns);
+        let pull = DMatrix::from_diagonal(&DVector::from_column_slice(pull));
+        self.regularized(f, &pull, &self.reached(&constrained), epsilon)
+    }
+
+    /// Solves (LᵀWL + εB) x = εBf for these vertices; the others stay.
+    pub(crate) fn regularized(&self, f: &[f64], b: &DMatrix<f64>, unknowns: &[usize], epsilon: f64) -> Vec<f64> {
+        let a = self.laplacian.select_rows(unknowns).select_columns(unknowns);
+        let b = b.select_rows(unknowns).select_columns(unknowns);
         let weights: Vec<f64> = unknowns.iter().map(|&v| self.weights[v]).collect();
-        let mut matrix = squared(&a, &weights);
-        for (i, &v) in unknowns.iter().enumerate() {
-            matrix[(i, i)] += epsilon * pull[v];
-        }
+        let matrix = squared(&a, &weights) + &b * epsilon;
         let residual = |x: &[f64]| -> Vec<f64> {
             let image = times(&a, &exactly(x));
             let weighted: Vec<Double> = image.iter().zip(&weights).map(|(x, &w)| *x * w.into()).collect();
-            let pulled =
-                |(i, &v): (usize, &usize)| Double::from(epsilon) * pull[v].into() * (Double::from(f[v]) - x[i].into());
-            let pulled = unknowns.iter().enumerate().map(pulled);
+            let rest: Vec<Double> =
+                unknowns.iter().zip(x).map(|(&v, &x)| Double::from(f[v]) - Double::from(x)).collect();
+            let pulled = times(&b, &rest).into_iter().map(|pull| Double::from(epsilon) * pull);
             pulled.zip(times(&a.transpose(), &weighted)).map(|(p, s)| (p - s).value()).collect()
         };
         let mut x = f.to_vec();

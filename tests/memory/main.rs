@@ -6,6 +6,7 @@
 #![allow(unsafe_code, reason = "an allocator that counts")]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+mod family;
 mod field;
 mod io;
 mod mesh;

@@ -121,6 +121,7 @@ pub(super) fn start(
         spaces.push(space);
     }
     let field = Field {
+        home: Arc::clone(operators),
         operators: Arc::clone(operators),
         about: About { epsilon: None, ..regularization.about },
         values: input.channels.to_interleaved(),
@@ -147,8 +148,6 @@ pub(super) fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>
         return Ok(());
     }
     let matrices = Arc::clone(&family.matrices);
-    let n = matrices.unknowns().len() as u64;
-    memory::ensure(8 * n * ((8 * family.spaces.len() + 4 * TOGETHER) as u64))?;
     let system = systems.regularized(&family.field.operators, matrices.unknowns(), matrices.term(), watch)?;
     add_shift(family, system, watch)
 }
@@ -157,6 +156,11 @@ pub(super) fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>
 fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<'_>) -> Result<()> {
     let Family { field, matrices, range, growth, spaces } = family;
     let epsilon = growth.worst.0;
+    let (n, count) = (matrices.unknowns().len() as u64, spaces.len());
+    let dimension = spaces.iter().map(Space::dimension).max().unwrap_or(0) as u64 + 3;
+    // What is solved for together, what becomes of it in the spaces, and what makes that orthogonal; and the small matrices.
+    let vectors = 6 * count + 8 * count.min(TOGETHER) + 3 * TOGETHER;
+    memory::ensure(8 * n * vectors as u64 + 8 * dimension * dimension * (12 * count as u64 + 12))?;
     let full = settings(field.operators.options, false);
     let rough = SolverSettings { accuracy: Accuracy::Rough, ..full };
     let (work, analysis, factorization) = system.forecast(epsilon, full);
@@ -224,7 +228,10 @@ fn extend(spaces: &mut [Space], added: Vec<[Vec<f64>; 3]>, matrices: &Matrices, 
             space.add(kind, vector, matrices, watch)?;
         }
     }
-    spaces.iter_mut().try_for_each(Space::project)
+    // One that cannot be projected leaves those of the others as they were, too.
+    let projections = spaces.iter().map(Space::projections).collect::<Result<Vec<_>>>()?;
+    spaces.iter_mut().zip(projections).for_each(|(space, projections)| space.project(projections));
+    Ok(())
 }
 
 /// What counts of the unknowns where a field is compared with its data: all alike, or what the data term reaches, by its weights.

@@ -85,7 +85,8 @@ impl Family {
         }
     }
 
-    fn traces(&self) -> Traces {
+    /// The traces of the matrix that smooths.
+    pub(super) fn traces(&self) -> Traces {
         let (by_probes, components) = self.growth.kernel;
         let corrected: Vec<f64> = self.growth.traces.iter().map(|trace| trace - by_probes + components).collect();
         Traces::new(&self.growth.shifts, &corrected, components, self.growth.known as f64)

@@ -112,6 +112,7 @@ impl Family {
 
     /// The numbers of minima, of maxima, and of saddles with multiplicity, of one channel.
     pub(super) fn counts(&self, epsilon: f64, channel: usize, watch: &Watch<'_>) -> Result<[u32; 3]> {
+        memory::ensure(self.channel_bytes())?;
         let values = self.channel_values(epsilon, channel);
         let field = ScalarField::with_missing(&self.field.operators.mesh, &values, self.field.missing_after())?;
         let counts = critical_points(&field, &DeltaOptions::default(), watch)?.counts;

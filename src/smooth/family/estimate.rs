@@ -17,7 +17,7 @@ pub(super) const PER_DECADE: f64 = 24.0;
 const SAFETY: f64 = 1.5;
 /// The same where few shifts leave most of the range beyond them, where estimates are rough.
 const SAFETY_OF_FEW: f64 = 3.0;
-const FEW: usize = 3;
+const FEW: usize = 6;
 /// Where the two spaces are equally good, the difference between them says nothing; this is the largest quotient that counts.
 const LARGEST_QUOTIENT: f64 = 0.95;
 

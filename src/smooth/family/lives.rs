@@ -42,17 +42,22 @@ impl Family {
         let grid = logarithmic(self.range, per_decade as f64);
         let mesh = &self.field.operators.mesh;
         let n = mesh.vertex_count();
-        memory::ensure(64 * n as u64)?;
         let mut plan = watch.plan(&[(Phase::Report, 1.0)]);
         plan.begin((100 * grid.len() * n) as u64)?;
         let mut ended: Vec<ExtremumLife> = Vec::new();
         let mut living: Vec<ExtremumLife> = Vec::new();
         for &epsilon in grid.iter().rev() {
+            memory::ensure(self.channel_bytes())?;
             let values = self.channel_values(epsilon, channel);
             let field = ScalarField::with_missing(mesh, &values, self.field.missing_after())?;
             let Basins { descending, ascending } = basins(&field, Threshold::Relative(0.0), watch)?;
+            // Marks; the extrema of this ε, and the lists of lives, which are moved as they grow, and sorted.
+            let is_extremum = |ends: &[u32]| ends.iter().enumerate().filter(|(v, end)| **end as usize == *v).count();
+            let now = is_extremum(&descending) + is_extremum(&ascending);
+            let lives = now + 2 * living.len() + 3 * (ended.len() + living.len());
+            memory::ensure((2 * n + lives * size_of::<ExtremumLife>()) as u64)?;
             // Who is at each vertex that is an extremum now; the first to come has lived longest, as those born later were put after it.
-            let mut next: Vec<ExtremumLife> = Vec::with_capacity(living.len());
+            let mut next: Vec<ExtremumLife> = Vec::with_capacity(now);
             let mut is_taken = vec![false; 2 * n];
             for life in living.drain(..) {
                 let ends = if life.is_maximum { &ascending } else { &descending };
@@ -83,6 +88,7 @@ impl Family {
             }
             living = next;
         }
+        memory::ensure((4 * (ended.len() + living.len()) * size_of::<ExtremumLife>()) as u64)?;
         ended.append(&mut living);
         let mut ranking: Vec<u32> = (0..ended.len() as u32).collect();
         let life = |place: u32| &ended[place as usize];

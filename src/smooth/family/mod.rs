@@ -57,6 +57,9 @@ pub struct Family {
 /// What is smoothed, and what is known of it.
 #[derive(Debug)]
 struct Field {
+    /// Those of the smoother, by which it is known.
+    home: Arc<Operators>,
+    /// The same, or those of the part that is smoothed.
     operators: Arc<Operators>,
     about: About,
     /// Interleaved.
@@ -87,6 +90,7 @@ impl Family {
         };
         let part = method::on_input(operators, systems, masked, values, &method, watch, make)?;
         let Some(mut family) = made else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
+        family.field.home = Arc::clone(operators);
         family.field.left_out = part.map(|part| (part, values.to_vec()));
         Ok(family)
     }
@@ -130,6 +134,18 @@ impl Family {
         Ok(self.growth.error(&self.spaces, epsilon))
     }
 
+    /// How many degrees of freedom the field of an ε has: the trace of the matrix (S + εB)⁻¹εB that smooths, between the number of components
+    /// (ε → 0) and that of the values that the data term knows (ε → ∞).
+    ///
+    /// It is known at the shifts, by a few vectors with random signs, and interpolated between them. Every channel has as many.
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range.
+    pub fn degrees_of_freedom(&self, epsilon: f64) -> Result<f64, OptionError> {
+        self.check(epsilon)?;
+        Ok(self.traces().at(epsilon))
+    }
+
     /// The smoothed values for an ε, interleaved as the input: one product with the basis of the space.
     ///
     /// # Errors
@@ -137,8 +153,8 @@ impl Family {
     pub fn values(&self, epsilon: f64) -> Result<Vec<f64>> {
         self.check(epsilon)?;
         let field = &self.field;
-        // The result, that of the part, and one channel's normalised values twice and in the units of the input.
-        memory::ensure(16 * field.values.len() as u64 + 32 * field.operators.mesh.vertex_count() as u64)?;
+        // The result, that of the whole mesh, and what one channel takes.
+        memory::ensure(8 * (field.values.len() + field.count_before()) as u64 + self.channel_bytes())?;
         let mut values = field.values.clone();
         for c in 0..field.channels.len() {
             let restored = self.channel_values(epsilon, c);
@@ -156,6 +172,9 @@ impl Family {
     pub fn at(&self, epsilon: f64, watch: &Watch<'_>) -> Result<Smoothed> {
         self.check(epsilon)?;
         let field = &self.field;
+        // The result, that of the whole mesh, and what is said of all ε alike.
+        let n = field.operators.mesh.vertex_count();
+        memory::ensure(8 * (field.values.len() + field.count_before() + 2 * n) as u64)?;
         let gaps = field.gaps();
         let channels = Channels::new(
             &field.operators.mesh,
@@ -179,16 +198,23 @@ impl Family {
         masked: &mut Masked,
         watch: &Watch<'_>,
     ) -> Result<bool> {
+        if !Arc::ptr_eq(operators, &self.field.home) {
+            return Err(OptionError::invalid("family", "a family of this smoother").into());
+        }
         let systems = match &self.field.left_out {
-            None if Arc::ptr_eq(operators, &self.field.operators) => systems,
+            None => systems,
             Some((part, _)) => match masked.of_part(part) {
                 Some(systems) => systems,
                 None => &mut Systems::default(),
             },
-            None => return Err(OptionError::invalid("family", "a family of this smoother").into()),
         };
         build::grow(self, systems, watch)?;
         Ok(self.growth.is_complete)
+    }
+
+    /// What the values of one channel take: at the unknowns, normalised, and in the units of the input; and lists of vertices.
+    fn channel_bytes(&self) -> u64 {
+        32 * self.field.operators.mesh.vertex_count() as u64
     }
 
     /// The smoothed values of one channel.
@@ -215,6 +241,11 @@ impl Field {
     /// Whether a value is to be filled in.
     fn is_missing(&self, vertex: usize) -> bool {
         self.gaps.as_ref().is_some_and(|(missing, _)| missing.binary_search(&(vertex as u32)).is_ok())
+    }
+
+    /// How many values there are on the whole mesh, where missing ones were left out.
+    fn count_before(&self) -> usize {
+        self.left_out.as_ref().map_or(0, |(_, before)| before.len())
     }
 
     /// What NaN means in smoothed values: components without any value may have kept it.

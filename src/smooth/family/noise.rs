@@ -5,6 +5,7 @@ use crate::error::FieldError;
 use crate::field::sort_by_value;
 use crate::mesh::Connectivity;
 use crate::support::counting_sort::{Buckets, grouped};
+use crate::support::memory;
 use crate::support::watch::Watch;
 
 /// The median of |x| for a normal distribution of standard deviation 1.
@@ -18,6 +19,8 @@ impl Family {
     pub(super) fn noise_by_differences(&self, channel: usize, watch: &Watch<'_>) -> Result<f64, FieldError> {
         let field = &self.field;
         let connectivity = field.operators.mesh.connectivity();
+        // Neighbours, twice in between; differences, a row, and what it is all about.
+        memory::ensure(24 * connectivity.edges().len() as u64 + 40 * connectivity.vertex_count() as u64)?;
         let neighbours = Neighbours::new(connectivity);
         let values = &field.channels[channel].normalized;
         let n = values.len();
@@ -28,7 +31,7 @@ impl Family {
             })
             .collect();
         let mut row = vec![0.0; n];
-        let mut sizes = Vec::new();
+        let mut sizes = Vec::with_capacity(n);
         for v in 0..n {
             let around = neighbours.of(v);
             let reaches = |w: u32| field.is_missing(w as usize) || neighbours.of(w as usize).is_empty();

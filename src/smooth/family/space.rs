@@ -188,11 +188,11 @@ impl Space {
         Ok(())
     }
 
-    /// Projects the systems, once vectors have been added.
+    /// The systems projected onto the space with the vectors that have been added: all of it, and its part.
     ///
     /// # Errors
     /// `NotConverged` where the projected matrices are not positive definite, which rounding alone can make them.
-    pub(super) fn project(&mut self) -> Result<()> {
+    pub(super) fn projections(&self) -> Result<[Pencil; 2]> {
         let size = self.dimension();
         let unit = |i: usize| (0..size).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
         let all: Vec<Vec<f64>> = (0..size).map(unit).collect();
@@ -207,8 +207,12 @@ impl Space {
             Pencil::new(columns, &self.smooth, &self.data, &self.loads, self.sigma)
                 .ok_or(SmoothError::NotConverged { iterations: 0, residual: f64::INFINITY })
         };
-        (self.full, self.partial) = (pencil(&all)?, pencil(&some)?);
-        Ok(())
+        Ok([pencil(&all)?, pencil(&some)?])
+    }
+
+    /// Takes what [`Space::projections`] found.
+    pub(super) fn project(&mut self, [full, partial]: [Pencil; 2]) {
+        (self.full, self.partial) = (full, partial);
     }
 
     /// How many vectors of a kind there are.
