@@ -6,6 +6,7 @@ use super::noise::NoiseLevel;
 use super::space::Space;
 use super::traces::Traces;
 use crate::error::{OptionError, Result, SmoothError};
+use crate::support::memory;
 use crate::support::named::named;
 use crate::support::watch::{Phase, Watch};
 
@@ -74,6 +75,11 @@ const NEARLY: f64 = 0.3;
 /// How many runners-up are told.
 const RUNNERS_UP: usize = 3;
 
+/// What comparing ε on a grid takes: the grid, what is compared, points of curves, and their order.
+pub(super) fn grid_bytes(range: (f64, f64)) -> u64 {
+    96 * (PER_DECADE * libm::log10(range.1 / range.0)) as u64 + 1024
+}
+
 impl EpsilonRule {
     /// What it is called.
     #[must_use]
@@ -109,6 +115,7 @@ impl Family {
         }
         let mut plan = watch.plan(&[(Phase::Report, 1.0)]);
         plan.begin(0)?;
+        memory::ensure(grid_bytes(self.range))?;
         match rule {
             EpsilonRule::Gcv => Ok(self.by_cross_validation()),
             EpsilonRule::LCurve => Ok(self.by_l_curve()),

@@ -253,11 +253,6 @@ impl Space {
         &self.basis
     }
 
-    /// Whether the data term knows the value of an unknown.
-    pub(super) fn is_counted(&self, unknown: usize) -> bool {
-        self.counted.as_ref().is_none_or(|counted| counted[unknown] > 0.0)
-    }
-
     /// The solution for ε at the unknowns.
     pub(super) fn solution(&self, epsilon: f64, of: Which) -> Vec<f64> {
         let mut x = vec![0.0; self.field.len()];
