@@ -54,8 +54,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn rules_come_near_to_the_best_epsilon() {
-    let meshes =
-        [("closed", shapes::torus(70, 50, 0.25).unwrap()), ("open", shapes::terrain(62, 58, 3).unwrap())];
+    let meshes = [("closed", shapes::torus(70, 50, 0.25).unwrap()), ("open", shapes::terrain(62, 58, 3).unwrap())];
     let rules = [
         EpsilonRule::Gcv,
         EpsilonRule::LCurve,
@@ -130,8 +129,7 @@ fn counts(family: &Family, list: &[f64]) -> Vec<usize> {
 fn at_most_so_many_critical_points() {
     let mesh = shapes::torus(40, 30, 0.25).unwrap();
     let truth = normalized(mesh.positions().chunks_exact(3).map(|p| p[1]).collect());
-    let f: Vec<f64> =
-        truth.iter().zip(normal_noise(truth.len(), 5)).map(|(x, noise)| x + 0.1 * noise).collect();
+    let f: Vec<f64> = truth.iter().zip(normal_noise(truth.len(), 5)).map(|(x, noise)| x + 0.1 * noise).collect();
     let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
     let family = built(&mut smoother, &f, &FamilyOptions::default());
     let watch = Watch::none();
@@ -203,8 +201,7 @@ fn rules_see_all_channels() {
 fn rules_work_for_least_squares() {
     let mesh = shapes::torus(40, 30, 0.25).unwrap();
     let truth = normalized(mesh.positions().chunks_exact(3).map(|p| p[1]).collect());
-    let f: Vec<f64> =
-        truth.iter().zip(normal_noise(truth.len(), 6)).map(|(x, noise)| x + 0.05 * noise).collect();
+    let f: Vec<f64> = truth.iter().zip(normal_noise(truth.len(), 6)).map(|(x, noise)| x + 0.05 * noise).collect();
     let listed: Vec<u32> = (0..f.len() as u32).step_by(3).collect();
     let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
     let constraints = morse_smooth::smooth::Constraints {

@@ -133,7 +133,9 @@ fn shortages() {
             for outcome in [
                 limited(bytes, || found.values(0.05).map(|_| ())),
                 limited(bytes, || found.at(0.05, &watch).map(|_| ())),
-                limited(bytes, || found.sweep(&SweepOptions { counts: true, ..Default::default() }, &watch).map(|_| ())),
+                limited(bytes, || {
+                    found.sweep(&SweepOptions { counts: true, ..Default::default() }, &watch).map(|_| ())
+                }),
                 limited(bytes, || found.lives(0, 2, &watch).map(|_| ())),
                 limited(bytes, || found.choose(EpsilonRule::Discrepancy { noise: None }, &watch).map(|_| ())),
                 limited(bytes, || found.choose(EpsilonRule::AtMostCriticalPoints { count: 50 }, &watch).map(|_| ())),

@@ -1,7 +1,7 @@
 //! The life of extrema along ε: which ones stay as the field is smoothed more, and for how long.
 
-use super::{Family, choose};
 use super::estimate::logarithmic;
+use super::{Family, choose};
 use crate::error::{OptionError, Result};
 use crate::field::{Basins, ScalarField, Threshold, basins};
 use crate::support::memory;

@@ -169,7 +169,13 @@ impl Space {
         self.smooth.push(row(&self.images, image)?);
         self.data.push(row(&self.basis, mass)?);
         self.plain.push(row(&self.basis, vector)?);
-        self.sobolev.push(row(&self.basis, laplacian_image)?);
+        let mut energies = row(&self.basis, laplacian_image)?;
+        if !matrices.is_symmetric() {
+            // Only the symmetric part of L makes energies.
+            let transposed = row(&self.images, vector)?;
+            energies.iter_mut().zip(transposed).for_each(|(a, b)| *a = 0.5 * (*a + b));
+        }
+        self.sobolev.push(energies);
         if let (Some(laplacian), Some(y)) = (&mut self.laplacian, &plain_image)
             && let Some(weights) = matrices.weights()
         {
