@@ -128,7 +128,7 @@ impl Space {
         }
         let (mut image, mut mass) = (image(matrices, &vector), matrices.mass().times(&vector));
         let rest = self.size(&vector, &image, &mass);
-        if !(rest > DEPENDENT * start.unwrap_or(0.0)) {
+        if rest.is_nan() || rest <= DEPENDENT * start.unwrap_or(0.0) {
             return Ok(());
         }
         for values in [&mut vector, &mut image, &mut mass] {
