@@ -32,9 +32,8 @@ pub(crate) fn built(smoother: &mut Smoother, values: &[f64], options: &FamilyOpt
 
 /// ‖x − y‖/‖y‖ of fields that are normalised by the range of f, at some vertices.
 pub(crate) fn relative(f: &[f64], found: &[f64], expected: &[f64], at: &[usize]) -> f64 {
-    let (min, max) = at.iter().map(|&v| f[v]).filter(|x| !x.is_nan()).fold((f64::MAX, f64::MIN), |(a, b), x| {
-        (a.min(x), b.max(x))
-    });
+    let (min, max) =
+        at.iter().map(|&v| f[v]).filter(|x| !x.is_nan()).fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
     let sum = |of: &dyn Fn(usize) -> f64| at.iter().map(|&v| (of(v) / (max - min)).powi(2)).sum::<f64>().sqrt();
     sum(&|v| found[v] - expected[v]) / sum(&|v| expected[v] - min)
 }
@@ -196,8 +195,7 @@ fn missing_values_left_out_agree_with_exact_solutions() {
             values[v * channels + v % channels] = f64::NAN;
         }
         let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
-        let at =
-            TikhonovOptions { missing: Missing::Omit, channels, metric: Metric::Identity, ..Default::default() };
+        let at = TikhonovOptions { missing: Missing::Omit, channels, metric: Metric::Identity, ..Default::default() };
         let family = built(&mut smoother, &values, &tikhonov(at));
         for epsilon in epsilons(family.range(), 11) {
             let expected = smoother.tikhonov(&values, &TikhonovOptions { epsilon, ..at }).unwrap();

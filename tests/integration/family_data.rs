@@ -9,7 +9,7 @@ use morse_smooth::smooth::{
 };
 
 use crate::data::{as_array, folder, read, say, values};
-use crate::family::{built, epsilons, relative};
+use crate::family::{epsilons, relative};
 
 /// The most factorisations.
 const MOST: usize = 14;
@@ -80,7 +80,12 @@ fn check(cases: &[Case], count: usize) {
             let context = format!("{file} {field} {name}");
             let options = SmootherOptions { operator, ..SmootherOptions::default() };
             let mut smoother = Smoother::new(&loaded.mesh, options).expect("cotangents");
-            let family = built(&mut smoother, &f, &FamilyOptions { method, ..FamilyOptions::default() });
+            let options = FamilyOptions { method, ..FamilyOptions::default() };
+            let family = match smoother.family(&f, &options, &Watch::none()) {
+                // The rule finds no vertex in some files.
+                Err(error) if error.code() == "Unconstrained" => continue,
+                family => family.expect("a family"),
+            };
             let (mut worst, mut different) = ((0.0, 0.0), 0);
             // What is largest hides between shifts: the estimate's own largest is looked at, too.
             let mut list = epsilons(family.range(), count);
@@ -109,7 +114,7 @@ fn check(cases: &[Case], count: usize) {
                 estimated / wrong,
                 list.len(),
             ));
-            if !(wrong <= 1e-6) {
+            if wrong.is_nan() || wrong > 1e-6 {
                 failures.push(format!("{context}: {wrong:e} at ε = {at:e}"));
             }
             if family.shifts().len() > MOST {

@@ -24,8 +24,7 @@ fn answers(family: &Family) -> (Vec<u64>, Vec<f64>, String) {
         numbers.extend([family.error_at(epsilon).unwrap(), family.degrees_of_freedom(epsilon).unwrap()]);
     }
     let sweep = family.sweep(&SweepOptions { counts: true, ..SweepOptions::default() }, &watch).unwrap();
-    let chosen =
-        [EpsilonRule::Gcv, EpsilonRule::LCurve].map(|rule| family.choose(rule, &watch).unwrap());
+    let chosen = [EpsilonRule::Gcv, EpsilonRule::LCurve].map(|rule| family.choose(rule, &watch).unwrap());
     (bits, numbers, format!("{sweep:?} {chosen:?}"))
 }
 
@@ -142,9 +141,7 @@ fn building_and_asking_end_wherever_they_are_stopped() {
             ("lives", Box::new(|watch| family.lives(0, 4, watch).map(|_| ()))),
             (
                 "choose",
-                Box::new(|watch| {
-                    family.choose(EpsilonRule::AtMostCriticalPoints { count: 30 }, watch).map(|_| ())
-                }),
+                Box::new(|watch| family.choose(EpsilonRule::AtMostCriticalPoints { count: 30 }, watch).map(|_| ())),
             ),
         ];
         for (name, mut call) in calls {

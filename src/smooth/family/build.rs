@@ -3,24 +3,25 @@
 use std::sync::Arc;
 
 use super::estimate::{Calibration, PER_DECADE, logarithmic};
+use super::growth::{Growth, PROBES};
+use super::members::{Family, Field, KeptGaps};
 use super::options::FamilyOptions;
+use super::reach::{counted, kernel};
 use super::small::dot;
 use super::space::{Kind, Space};
-use super::{Family, Field};
-use crate::error::Result;
-use crate::smooth::active::ActiveVertices;
+
+use crate::error::{MeshError, OptionError, Result};
 use crate::smooth::channels::TOGETHER;
-use crate::smooth::data_term::Mass;
 use crate::smooth::input::Input;
-use crate::smooth::method::Method;
+use crate::smooth::method::{self, Masked, Method};
 use crate::smooth::methods::settings;
+use crate::smooth::operators::Operators;
 use crate::smooth::report::About;
 use crate::smooth::routes::{Accuracy, SolverSettings};
 use crate::smooth::schedule::{Forecast, Schedule};
 use crate::smooth::system::{Matrices, RegularizedSystem};
 use crate::smooth::systems::Systems;
 use crate::support::memory;
-use crate::support::random::Random;
 use crate::support::watch::{Phase, Watch};
 
 /// Where rounding keeps a family from its tolerance, more shifts than these do not help.
@@ -29,62 +30,55 @@ const MOST_SHIFTS: usize = 24;
 const USUAL_SHIFTS: usize = 11;
 /// A family that has not come to half of its least error after so many shifts gets no better.
 const PATIENCE: usize = 5;
-/// Vectors with random signs that the trace of the matrix that smooths is found by. They are solved for together with what the space
-/// needs, in two blocks of [`TOGETHER`].
-const PROBES: usize = 6;
-
-/// How far a family has grown.
-#[derive(Debug)]
-pub(super) struct Growth {
-    pub(super) shifts: Vec<f64>,
-    /// For every shift the trace of (S + εB)⁻¹εB.
-    pub(super) traces: Vec<f64>,
-    /// The number of values that the data term knows.
-    pub(super) known: usize,
-    probes: Vec<Vec<f64>>,
-    /// What the components' means have of the traces by the probes, on average, and their number, which is what they have in truth.
-    pub(super) kernel: (f64, f64),
-    calibrations: Vec<Calibration>,
-    tolerance: f64,
-    /// The ε with the largest error, and that error.
-    pub(super) worst: (f64, f64),
-    /// The least such error, and how many shifts ago it was halved.
-    least: (f64, usize),
-    pub(super) is_complete: bool,
-}
-
-impl Growth {
-    fn new(first: f64, tolerance: f64, matrices: &Matrices, active: &ActiveVertices) -> Self {
-        let counted = counted(matrices.mass());
-        let n = matrices.unknowns().len();
-        let is_known = |i: usize| counted.as_ref().is_none_or(|counted| counted[i] > 0.0);
-        let mut random = Random::new(1);
-        let mut sign = |i: usize| if is_known(i) { random.signed().signum() } else { 0.0 };
-        let probes: Vec<Vec<f64>> = (0..PROBES).map(|_| (0..n).map(&mut sign).collect()).collect();
-        let kernel = kernel_of_traces(&probes, matrices, active);
-        Self {
-            shifts: Vec::new(),
-            traces: Vec::new(),
-            known: (0..n).filter(|&i| is_known(i)).count(),
-            probes,
-            kernel,
-            calibrations: Vec::new(),
-            tolerance,
-            worst: (first, 1.0),
-            least: (1.0, 0),
-            is_complete: false,
-        }
+impl Family {
+    /// Makes a family, and lets it grow.
+    pub(in crate::smooth) fn new(
+        operators: &Arc<Operators>,
+        systems: &mut Systems,
+        masked: &mut Masked,
+        values: &[f64],
+        options: &FamilyOptions<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
+        options.check()?;
+        let method = options.method.method();
+        let mut made = None;
+        let make = &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| {
+            made = Some(start(input, systems, method, options, watch)?);
+            Ok(())
+        };
+        let part = method::on_input(operators, systems, masked, values, &method, watch, make)?;
+        let Some(mut family) = made else { return Err(MeshError::EmptyMesh { vertices: 0, triangles: 0 }.into()) };
+        family.field.home = Arc::clone(operators);
+        family.field.left_out = part.map(|part| (part, values.to_vec()));
+        Ok(family)
     }
 
-    /// The largest relative error of all channels.
-    pub(super) fn error(&self, spaces: &[Space], epsilon: f64) -> f64 {
-        let each = spaces.iter().zip(&self.calibrations);
-        each.map(|(space, calibration)| calibration.error(space, epsilon, &self.shifts)).fold(0.0, f64::max)
+    /// Adds a shift; whether the family is complete.
+    pub(in crate::smooth) fn grow(
+        &mut self,
+        operators: &Arc<Operators>,
+        systems: &mut Systems,
+        masked: &mut Masked,
+        watch: &Watch<'_>,
+    ) -> Result<bool> {
+        if !Arc::ptr_eq(operators, &self.field.home) {
+            return Err(OptionError::invalid("family", "a family of this smoother").into());
+        }
+        let systems = match &self.field.left_out {
+            None => systems,
+            Some((part, _)) => match masked.of_part(part) {
+                Some(systems) => systems,
+                None => &mut Systems::default(),
+            },
+        };
+        grow(self, systems, watch)?;
+        Ok(self.growth.is_complete)
     }
 }
 
 /// Makes a family of what a method smooths.
-pub(super) fn start(
+fn start(
     input: &Input<'_>,
     systems: &mut Systems,
     method: &Method<'_>,
@@ -126,7 +120,7 @@ pub(super) fn start(
         about: About { epsilon: None, ..regularization.about },
         values: input.channels.to_interleaved(),
         channels,
-        gaps: input.gaps.as_ref().map(|gaps| (Arc::clone(&gaps.missing), gaps.part.cloned())),
+        gaps: input.gaps.as_ref().map(|gaps| KeptGaps { missing: Arc::clone(&gaps.missing), part: gaps.part.cloned() }),
         left_out: None,
     };
     let growth = Growth::new(options.first(), options.tolerance, &matrices, &operators.active);
@@ -143,7 +137,7 @@ pub(super) fn start(
 }
 
 /// Adds a shift to a family.
-pub(super) fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>) -> Result<()> {
+fn grow(family: &mut Family, systems: &mut Systems, watch: &Watch<'_>) -> Result<()> {
     if family.growth.is_complete {
         return Ok(());
     }
@@ -232,47 +226,4 @@ fn extend(spaces: &mut [Space], added: Vec<[Vec<f64>; 3]>, matrices: &Matrices, 
     let projections = spaces.iter().map(Space::projections).collect::<Result<Vec<_>>>()?;
     spaces.iter_mut().zip(projections).for_each(|(space, projections)| space.project(projections));
     Ok(())
-}
-
-/// What counts of the unknowns where a field is compared with its data: all alike, or what the data term reaches, by its weights.
-fn counted(mass: &Mass) -> Option<Vec<f64>> {
-    if !mass.has_gaps() {
-        return None;
-    }
-    match mass {
-        Mass::Diagonal(weights) => Some(weights.clone()),
-        Mass::Identity | Mass::Matrix(_) => None,
-        Mass::Partial(matrix) => {
-            Some((0..matrix.ncols()).map(|i| f64::from(u8::from(mass.diagonal(i) > 0.0))).collect())
-        }
-    }
-}
-
-/// The limit of the solutions for ε → 0: on every component the mean of the field in the data term's norm.
-fn kernel(field_mass: &[f64], matrices: &Matrices, active: &ActiveVertices) -> Vec<f64> {
-    let unknowns = matrices.unknowns();
-    let ones = matrices.mass().times(&vec![1.0; unknowns.len()]);
-    let mut sums = vec![(0.0, 0.0); active.first_vertices().len()];
-    for ((&v, load), one) in unknowns.iter().zip(field_mass).zip(&ones) {
-        if let Some(component) = active.component(v) {
-            sums[component].0 += load;
-            sums[component].1 += one;
-        }
-    }
-    let mean = |&v: &u32| match active.component(v).map(|component| sums[component]) {
-        Some((load, mass)) if mass > 0.0 => load / mass,
-        _ => 0.0,
-    };
-    unknowns.iter().map(mean).collect()
-}
-
-/// What the means of the components have of the traces by these probes, on average, and what they have in truth.
-fn kernel_of_traces(probes: &[Vec<f64>], matrices: &Matrices, active: &ActiveVertices) -> (f64, f64) {
-    let of_probe = |z: &Vec<f64>| dot(z, &kernel(&matrices.mass().times(z), matrices, active));
-    let by_probes = probes.iter().map(of_probe).sum::<f64>() / probes.len().max(1) as f64;
-    let mut is_there = vec![false; active.first_vertices().len()];
-    for component in matrices.unknowns().iter().filter_map(|&v| active.component(v)) {
-        is_there[component] = true;
-    }
-    (by_probes, is_there.into_iter().filter(|&there| there).count() as f64)
 }

@@ -2,12 +2,13 @@
 
 use core::f64::consts::LN_10;
 
-use super::Family;
 use super::estimate::logarithmic;
+use super::members::Family;
 use super::space::Space;
 use super::traces::Traces;
 use crate::error::{OptionError, Result, SmoothError};
 use crate::smooth::choice::{ChosenEpsilon, NoiseLevel, RuleName};
+use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// A rule that chooses ε.
@@ -21,7 +22,7 @@ pub enum EpsilonRule {
     /// the one nearest to the data.
     LCurve,
     /// The discrepancy principle: the largest ε for which the residual is as large as noise of this standard deviation makes it, in the units
-    /// of the field: ‖x − f‖² = σ²(n − tr) \[Turchin68\], where n − tr degrees of freedom are left for the noise.
+    /// of the field: ‖x − f‖² = σ²(n − tr) \[Turchin67\], where n − tr degrees of freedom are left for the noise.
     Discrepancy {
         /// σ; nothing where it is to be estimated from the field.
         noise: Option<f64>,
@@ -41,6 +42,11 @@ const COUNTS_PER_DECADE: f64 = 20.0;
 const NEARLY: f64 = 0.3;
 /// How many runners-up are told.
 const RUNNERS_UP: usize = 3;
+
+/// What comparing ε on a grid takes: the grid, what is compared, points of curves, and their order.
+pub(super) fn grid_bytes(range: (f64, f64)) -> u64 {
+    96 * (PER_DECADE * libm::log10(range.1 / range.0)) as u64 + 1024
+}
 
 impl EpsilonRule {
     /// What it is called.
@@ -77,6 +83,7 @@ impl Family {
         }
         let mut plan = watch.plan(&[(Phase::Report, 1.0)]);
         plan.begin(0)?;
+        memory::ensure(grid_bytes(self.range))?;
         match rule {
             EpsilonRule::Gcv => Ok(self.by_cross_validation()),
             EpsilonRule::LCurve => Ok(self.by_l_curve()),

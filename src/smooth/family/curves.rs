@@ -1,9 +1,10 @@
 //! What becomes of norms and critical points along ε.
 
+use super::choose;
 use super::estimate::logarithmic;
+use super::members::Family;
 use super::small::Pieces;
 use super::space::Space;
-use super::{Family, choose};
 use crate::error::{OptionError, Result};
 use crate::field::{DeltaOptions, ScalarField, critical_points};
 use crate::smooth::report::energies;
@@ -72,10 +73,13 @@ impl Family {
         let mut plan = watch.plan(&steps);
         let n = self.field.operators.mesh.vertex_count();
         plan.begin((2 * epsilons.len() * space.dimension() * n) as u64)?;
-        memory::ensure(64 * n as u64 + 8 * (epsilons.len() * (space.dimension() + 8)) as u64)?;
+        let small = 8 * (epsilons.len() * (space.dimension() + 8)) as u64 + choose::grid_bytes(self.range);
+        memory::ensure(64 * n as u64 + small)?;
         let (l_infinity, [laplacian, sobolev]) = self.elsewhere(options.channel);
+        let is_known: Vec<bool> =
+            self.matrices.unknowns().iter().map(|&v| !self.field.is_missing(v as usize)).collect();
         let mut sweep = Sweep {
-            l_infinity: space.largest_differences(&epsilons, l_infinity, watch)?,
+            l_infinity: space.largest_differences(&epsilons, &is_known, l_infinity, watch)?,
             metric_norm: Vec::with_capacity(epsilons.len()),
             laplacian_norm: Vec::with_capacity(epsilons.len()),
             sobolev: Vec::with_capacity(epsilons.len()),
@@ -135,7 +139,13 @@ impl Family {
 
 impl Space {
     /// max |x − f| over the unknowns whose values are known, for several ε, and no less than `least`.
-    fn largest_differences(&self, epsilons: &[f64], least: f64, watch: &Watch<'_>) -> Result<Vec<f64>> {
+    fn largest_differences(
+        &self,
+        epsilons: &[f64],
+        is_known: &[bool],
+        least: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<f64>> {
         let coefficients: Vec<Vec<f64>> = epsilons.iter().map(|&epsilon| self.coefficients_of(epsilon)).collect();
         let mut largest = vec![least; epsilons.len()];
         let mut pieces = Pieces::new(self.basis(), PIECE);
@@ -145,7 +155,7 @@ impl Space {
                 let x = piece.combination(coefficients);
                 for (i, x) in range.clone().zip(x) {
                     let difference = (x - self.field()[i]).abs();
-                    if self.is_counted(i) && difference > *largest {
+                    if is_known[i] && difference > *largest {
                         *largest = difference;
                     }
                 }

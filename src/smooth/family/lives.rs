@@ -1,7 +1,8 @@
 //! The life of extrema along ε: which ones stay as the field is smoothed more, and for how long.
 
-use super::Family;
+use super::choose;
 use super::estimate::logarithmic;
+use super::members::Family;
 use crate::error::{OptionError, Result};
 use crate::field::{Basins, ScalarField, Threshold, ascending_bits, basins, sort_by_key};
 use crate::support::memory;
@@ -39,6 +40,7 @@ impl Family {
         if !(1..=100).contains(&per_decade) {
             return Err(OptionError::invalid("perDecade", "an integer from 1 to 100").into());
         }
+        memory::ensure(choose::grid_bytes(self.range))?;
         let grid = logarithmic(self.range, per_decade as f64);
         let mesh = &self.field.operators.mesh;
         let n = mesh.vertex_count();

@@ -1,6 +1,6 @@
 //! How much noise a field has, told from the field.
 
-use super::Family;
+use super::members::Family;
 use crate::error::FieldError;
 use crate::field::sort_by_value;
 use crate::mesh::Connectivity;

@@ -128,7 +128,7 @@ impl Space {
         }
         let (mut image, mut mass) = (image(matrices, &vector), matrices.mass().times(&vector));
         let rest = self.size(&vector, &image, &mass);
-        if !(rest > DEPENDENT * start.unwrap_or(0.0)) {
+        if rest.is_nan() || rest <= DEPENDENT * start.unwrap_or(0.0) {
             return Ok(());
         }
         for values in [&mut vector, &mut image, &mut mass] {
@@ -169,7 +169,13 @@ impl Space {
         self.smooth.push(row(&self.images, image)?);
         self.data.push(row(&self.basis, mass)?);
         self.plain.push(row(&self.basis, vector)?);
-        self.sobolev.push(row(&self.basis, laplacian_image)?);
+        let mut energies = row(&self.basis, laplacian_image)?;
+        if !matrices.is_symmetric() {
+            // Only the symmetric part of L makes energies.
+            let transposed = row(&self.images, vector)?;
+            energies.iter_mut().zip(transposed).for_each(|(a, b)| *a = 0.5 * (*a + b));
+        }
+        self.sobolev.push(energies);
         if let (Some(laplacian), Some(y)) = (&mut self.laplacian, &plain_image)
             && let Some(weights) = matrices.weights()
         {
@@ -251,11 +257,6 @@ impl Space {
 
     pub(super) fn basis(&self) -> &[Vec<f64>] {
         &self.basis
-    }
-
-    /// Whether the data term knows the value of an unknown.
-    pub(super) fn is_counted(&self, unknown: usize) -> bool {
-        self.counted.as_ref().is_none_or(|counted| counted[unknown] > 0.0)
     }
 
     /// The solution for ε at the unknowns.
