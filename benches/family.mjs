@@ -4,7 +4,7 @@ import { Problem, heading, main, say, step } from '../scripts/lib/log.mjs';
 import { inChild } from './lib/child.mjs';
 import { median } from './lib/clock.mjs';
 import { MESHES, RULES } from './lib/family-choice.mjs';
-import { SYSTEMS } from './lib/family.mjs';
+import { CALLS, SYSTEMS } from './lib/family.mjs';
 import { oneOf, readSize } from './lib/options.mjs';
 import { number, printTable, size as label } from './lib/table.mjs';
 
@@ -67,7 +67,8 @@ function readOptions(parameters) {
   if (values.help) throw new Problem(USAGE);
   const sizes = values.size?.split(',').map(readSize) ?? (values.quick ? [5_000] : null);
   const rounds = values.rounds ? Number(values.rounds) : null;
-  if (rounds !== null && !(rounds >= 1 && rounds <= 5)) throw new Problem('--rounds: 1 to 5 is expected');
+  if (rounds !== null && !(rounds >= 1 && rounds <= CALLS))
+    throw new Problem(`--rounds ${values.rounds}: 1 to ${CALLS} is expected`);
   return {
     speedSizes: sizes ?? [10_000, 100_000],
     choiceSizes: sizes ?? [3_500, 35_000],
@@ -92,22 +93,14 @@ async function speed(size, { systems, rounds, clock }) {
   const columns = [];
   for (const system of systems) {
     const parameters = { system, size, clock, rounds: rounds(size) };
-    const result = await measure(`${system}: times and errors`, 'family', parameters);
-    if (result.failure) columns.push([]);
-    else {
-      const peaks = [];
-      for (const alone of ['tikhonov', 'family']) {
-        const { facts } = await measure(`${system}: memory of ${alone}`, 'family', { ...parameters, alone });
-        peaks.push(facts?.peak ?? NaN);
-      }
-      columns.push(column(result, peaks));
-    }
+    const result = await measure(system, 'family', parameters);
+    columns.push(result.failure ? [] : column(result));
   }
   LINES.forEach(([name, target], line) => rows.push([name, ...columns.map((found) => found[line] ?? '–'), target]));
   printTable(rows);
 }
 
-function column({ samples, facts }, peaks) {
+function column({ samples, facts }) {
   const time = (name) => median(samples[name]);
   const milliseconds = (name) => number(1000 * time(name));
   const worst = (errors) => Math.max(...errors.map(([, error]) => error)).toExponential(1);
@@ -128,7 +121,7 @@ function column({ samples, facts }, peaks) {
     milliseconds('at'),
     milliseconds('sweep'),
     ...[...RULES, 'atMostCriticalPoints'].map(milliseconds),
-    ...peaks.map((bytes) => (bytes / 1e6).toFixed(0)),
+    ...[facts.peakOfCall, facts.peakOfFamily].map((bytes) => (bytes / 1e6).toFixed(0)),
   ];
 }
 

@@ -13,13 +13,15 @@ export const SYSTEMS = {
 /** The default range of ε, and where a slider begins. */
 const RANGE = [1e-6, 1e4];
 const FIRST = 1;
+/** Single calls that a median is taken of, and the most families. */
+export const CALLS = 5;
 /** How many ε are compared with exact calls, over the range and over the three decades around the first. */
 const COMPARED = 9;
 const NEAR = 7;
 
 const between = (from, to, count) => Array.from({ length: count }, (_, k) => from * (to / from) ** (k / (count - 1)));
 
-export async function run({ system, size, clock, rounds, alone }) {
+export async function run({ system, size, clock, rounds }) {
   const memory = await loadWithMemory();
   const { positions, triangles } = jitteredTorus(size);
   const values = noisyField(positions);
@@ -27,21 +29,19 @@ export async function run({ system, size, clock, rounds, alone }) {
   const [settings, options] = SYSTEMS[system];
   const smoother = new Smoother(mesh, settings);
   smoother.tikhonov(values, { ...options, epsilon: FIRST });
-  const facts = { vertices: mesh.vertexCount };
-  if (alone === 'tikhonov') return { facts: { ...facts, peak: memory() } };
-  if (alone === 'family') {
-    smoother.family(values, options).free();
-    return { facts: { ...facts, peak: memory() } };
-  }
+  // Memory of WebAssembly never shrinks: its size is its peak.
+  const facts = { vertices: mesh.vertexCount, peakOfCall: memory() };
 
   const watch = new Stopwatch(clock);
+  let family;
   // Each ε differs from the one before, so that it is factorised anew. Calls and families take turns.
-  for (let round = 0; round < 5; round++) {
+  for (let round = 0; round < CALLS; round++) {
     watch.time('call', () => smoother.tikhonov(values, { ...options, epsilon: 0.1 + 0.01 * round }));
-    if (round < rounds) {
-      watch.time('first', () => smoother.family(values, { ...options, factorizations: 1, epsilon: FIRST })).free();
-      watch.time('family', () => smoother.family(values, options)).free();
-    }
+    if (round >= rounds) continue;
+    family?.free();
+    watch.time('first', () => smoother.family(values, { ...options, factorizations: 1, epsilon: FIRST })).free();
+    family = watch.time('family', () => smoother.family(values, options));
+    facts.peakOfFamily ??= memory();
   }
 
   const exact = new Map();
@@ -56,7 +56,6 @@ export async function run({ system, size, clock, rounds, alone }) {
   facts.firstEstimate = Math.max(...facts.firstErrors.map(([epsilon]) => early.errorAt(epsilon)));
   early.free();
 
-  const family = smoother.family(values, options);
   for (const name of ['dimension', 'factorizations', 'errorEstimate', 'complete']) facts[name] = family[name];
   facts.errors = between(...RANGE, COMPARED).map((epsilon) => {
     const { values: expected, report } = exactly(epsilon);
@@ -74,7 +73,8 @@ export async function run({ system, size, clock, rounds, alone }) {
   for (const rule of [{ rule: 'gcv' }, { rule: 'lCurve' }, { rule: 'discrepancy' }]) {
     facts[`${rule.rule}/epsilon`] = watch.time(rule.rule, () => family.choose(rule)).epsilon;
   }
-  watch.time('atMostCriticalPoints', () => family.choose({ rule: 'atMostCriticalPoints', count: 100 }));
+  const count = Math.ceil(mesh.vertexCount / 100);
+  watch.time('atMostCriticalPoints', () => family.choose({ rule: 'atMostCriticalPoints', count }));
   family.free();
   return { samples: watch.samples, facts };
 }
