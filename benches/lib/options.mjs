@@ -43,14 +43,14 @@ export function readOptions(parameters) {
   };
 }
 
-function oneOf(name, given, known, otherwise = known) {
+export function oneOf(name, given, known, otherwise = known) {
   const chosen = given?.split(',') ?? otherwise;
   const unknown = chosen.find((item) => !known.includes(item));
   if (unknown !== undefined) throw new Problem(`--${name} ${unknown}: one of ${known.join(', ')} is expected`);
   return chosen;
 }
 
-function readSize(text) {
+export function readSize(text) {
   const [, digits, unit] = /^(\d+(?:\.\d+)?)([kM]?)$/.exec(text) ?? [];
   if (!digits) throw new Problem(`--size ${text}: a number such as 100k is expected`);
   return Math.round(Number(digits) * { '': 1, k: 1e3, M: 1e6 }[unit]);

@@ -1,7 +1,6 @@
 // How long one waits for a call to end after saying stop, in a process of its own.
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
-import init, { Smoother, TriMesh } from '../../dist/index.js';
+import { Smoother, TriMesh } from '../../dist/index.js';
+import { loadWithMemory } from './memory-size.mjs';
 import { noisyTorus } from './noisy-torus.mjs';
 
 /** The long calls: `make` gives what is called, `(f, onProgress)` one call. Constraints are vertices spread over the mesh. */
@@ -42,33 +41,11 @@ function constrained(options, method, settings) {
   };
 }
 
-/** The size of the instance's memory, which `init` is shown by the module's own export. */
-async function load() {
-  const { instantiate } = WebAssembly;
-  let memory;
-  const Original = WebAssembly.Instance;
-  WebAssembly.instantiate = async (...given) => {
-    const result = await instantiate(...given);
-    memory = (result.instance ?? result).exports.memory ?? memory;
-    return result;
-  };
-  WebAssembly.Instance = new Proxy(Original, {
-    construct(target, given) {
-      const instance = new target(...given);
-      memory = instance.exports.memory ?? memory;
-      return instance;
-    },
-  });
-  const wasm = readFileSync(fileURLToPath(new URL('../../dist/morse_smooth_bg.wasm', import.meta.url)));
-  await init({ wasm });
-  return () => memory.buffer.byteLength;
-}
-
 const pick = (sorted, part) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))];
 
 /** Runs one call whole and stops it at places spread over its time. */
 export async function run({ name, size, stops, repeats }) {
-  const memory = await load();
+  const memory = await loadWithMemory();
   const { positions, triangles, values } = noisyTorus(...size);
   const mesh = new TriMesh(positions, triangles);
   const call = CALLS.find(([known]) => known === name)[1](mesh);
