@@ -85,6 +85,12 @@ const calls = {
   'interpolate, biharmonic': (mesh) =>
     smooth(mesh, field, { method: 'interpolate', constraints, energy: 'biharmonic' }),
   leastSquares: (mesh) => smooth(mesh, field, { epsilon: 1, constraints }),
+  'tikhonov, ε chosen': (mesh) => smooth(mesh, field),
+  family: (mesh) =>
+    freed(new Smoother(mesh), (smoother) =>
+      freed(smoother.family(field), (family) => [...family.values(0.1)].map((value) => value.toFixed(4))),
+    ),
+  sweep: (mesh) => freed(new Smoother(mesh), (smoother) => smoother.sweep(field, { counts: true }).minima.length),
   lowPass: (mesh) => freed(new Smoother(mesh), (smoother) => smoother.lowPass(field, { iterations: 4 })),
   bilateral: (mesh) =>
     freed(new Smoother(mesh), (smoother) =>

@@ -29,7 +29,7 @@ export class SmoothingFamily {
   }
 
   get epsilonRange() {
-    return aboutOf(this).epsilonRange;
+    return aboutOf(this).epsilonRange.slice();
   }
 
   get dimension() {
