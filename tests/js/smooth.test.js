@@ -390,7 +390,6 @@ describe('refused', () => {
     expect(smooth(mesh, f, { epsilon: 1 }).values.length).toBe(4);
   });
 
-
   it('values', () => {
     const smoother = new Smoother(make(tetrahedron()));
     const call = (values, options) => () => smoother.tikhonov(values, { epsilon: 1, ...options });

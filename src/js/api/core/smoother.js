@@ -82,7 +82,9 @@ export class Smoother {
 
   /** The options of a call with what is to be called back: their own, or the smoother's. */
   #watching(given) {
-    return isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    return isGiven(this.#onProgress) && !isGiven(given?.onProgress)
+      ? { ...given, onProgress: this.#onProgress }
+      : given;
   }
 
   #smooth(method, values, options) {
