@@ -32,7 +32,6 @@ const smoothings = {
   tikhonov: (smoother, more) => smoother.tikhonov(values, { epsilon: 0.1, ...more }),
   interpolate: (smoother, more) => smoother.interpolate(values, { constraints, ...more }),
   leastSquares: (smoother, more) => smoother.leastSquares(values, { epsilon: 1, constraints, ...more }),
-  'tikhonov, ε chosen': (smoother, more) => smoother.tikhonov(values, { epsilon: 'auto', ...more }),
   sweep: (smoother, more) => smoother.sweep(values, { ...loose, counts: true, ...more }),
   family: (smoother, more) => {
     const family = smoother.family(values, { ...loose, ...more });
