@@ -53,7 +53,9 @@ fn wrong_options_are_refused_by_name() {
         assert_eq!(thrown(RawSmoother::new(&mesh, &js(text))).0, code, "{text}");
     }
     for (text, code) in [
-        ("{ epsilon: 'auto' }", "UnsupportedOption"),
+        ("{ epsilon: 'Auto' }", "InvalidOption"),
+        ("{ epsilon: { rule: 'best' } }", "InvalidOption"),
+        ("{ epsilon: { rule: 'gcv', noise: 1 } }", "UnknownOption"),
         ("{ epsilon: 'much' }", "InvalidOption"),
         ("{ epsilon: 1, method: 'interpolate' }", "InapplicableOption"),
         ("{ method: 'interpolate' }", "InvalidOption"),

@@ -177,7 +177,8 @@ describe('other options that are refused', () => {
     ...[-0.5, 'none', true, 3].map((bad) => ['interpolate', { energy: bad }, 'energy']),
     ...['ignore', false, 1].map((bad) => ['interpolate', { unconstrained: bad }, 'unconstrained']),
     ...numbers.map((bad) => ['interpolate', { channels: bad }, 'channels']),
-    ...[0, -1, NaN, Infinity, '1', true, {}, undefined].map((bad) => ['leastSquares', { epsilon: bad }, 'epsilon']),
+    ...[0, -1, NaN, Infinity, '1', true, undefined].map((bad) => ['leastSquares', { epsilon: bad }, 'epsilon']),
+    ['leastSquares', { epsilon: {} }, 'epsilon.rule'],
     ...['ignore', 0].map((bad) => ['leastSquares', { unconstrained: bad }, 'unconstrained']),
     ...numbers.map((bad) => ['leastSquares', { channels: bad }, 'channels']),
   ])('%s: %o', (method, bad, option) => {
@@ -187,7 +188,7 @@ describe('other options that are refused', () => {
     expect(smoother[method](f, good[method])).toEqual(expected);
   });
 
-  it('are those of other methods, and ε that this version does not choose', () => {
+  it('are those of other methods', () => {
     const smoother = new Smoother(make(torus(9, 7)));
     for (const [method, option, value] of [
       ['interpolate', 'epsilon', 1],
@@ -207,8 +208,6 @@ describe('other options that are refused', () => {
       const options = { ...(good[method] ?? { epsilon: 1 }), [option]: value };
       expectError(() => smoother[method](f, options), 'UnknownOption', { option });
     }
-    const auto = { ...good.leastSquares, epsilon: 'auto' };
-    expectError(() => smoother.leastSquares(f, auto), 'UnsupportedOption', { option: 'epsilon', value: 'auto' });
   });
 
   it('are weights that do not fit', () => {
@@ -247,8 +246,6 @@ describe('other options that are refused', () => {
     ])
       expectError(() => smooth(mesh, f, options), 'InapplicableOption', { option });
     for (const [options, option] of [
-      [{ constraints }, 'epsilon'],
-      [{ method: 'leastSquares', constraints }, 'epsilon'],
       [{ method: 'leastSquares', epsilon: 1 }, 'constraints'],
       [{ method: 'interpolate' }, 'constraints'],
       [{ method: 'blur', constraints, epsilon: 1 }, 'method'],
@@ -257,10 +254,12 @@ describe('other options that are refused', () => {
       [{ constraints, epsilon: 1, weights: [1, 2] }, 'weights'],
     ])
       expectError(() => smooth(mesh, f, options), 'InvalidOption', { option });
-    expectError(() => smooth(mesh, f, { constraints, epsilon: 'auto' }), 'UnsupportedOption', { option: 'epsilon' });
     for (const bad of [5, 'x', [1], new Map(), null])
       expectError(() => smooth(mesh, f, bad), 'InvalidArgument', { argument: 'options' });
     expect(smooth(mesh, f, { constraints, epsilon: 1 }).values).toHaveLength(63);
+    // ε is chosen where it is left out.
+    for (const options of [{}, { method: 'leastSquares' }, { epsilon: 'auto' }])
+      expect(smooth(mesh, f, { constraints, ...options }).report.choice.rule).toBe('gcv');
   });
 });
 

@@ -76,6 +76,7 @@ describe('everywhere', () => {
     expect(Object.keys(core).sort()).toEqual([
       'MorseSmoothError',
       'Smoother',
+      'SmoothingFamily',
       'TriMesh',
       'default',
       'smooth',

@@ -30,6 +30,8 @@ describe('an instance that fails', () => {
     const mesh = make(shape);
     const smoother = new Smoother(mesh);
     const expected = smoother.tikhonov(values, { epsilon: 0.1 });
+    const family = smoother.family(values);
+    const curves = family.sweep();
     const points = mesh.criticalPoints(values);
 
     const thrown = thrownBy(() => mesh.basins(values));
@@ -42,6 +44,10 @@ describe('an instance that fails', () => {
       () => mesh.topology,
       () => mesh.basins(values),
       () => smoother.tikhonov(values, { epsilon: 0.1 }),
+      () => family.values(0.1),
+      () => family.dimension,
+      () => family.grow(),
+      () => smoother.sweep(values),
       () => new Smoother(mesh),
       () => smooth(mesh, values, { epsilon: 0.1 }),
       () => mesh.positions(),
@@ -59,6 +65,7 @@ describe('an instance that fails', () => {
     expectCode(() => mesh.vertexCount, 'InstanceLost');
     expectCode(() => new Smoother(mesh), 'InstanceLost');
     expectCode(() => smooth(mesh, values, { epsilon: 0.1 }), 'InstanceLost');
+    family.free();
     smoother.free();
     mesh.free();
     mesh.free();
@@ -67,6 +74,7 @@ describe('an instance that fails', () => {
     const fresh = make(shape);
     expect(fresh.criticalPoints(values)).toEqual(points);
     expect(new Smoother(fresh).tikhonov(values, { epsilon: 0.1 })).toEqual(expected);
+    expect(new Smoother(fresh).sweep(values)).toEqual(curves);
   });
 
   it('is lost to a call from within a callback, too', async () => {

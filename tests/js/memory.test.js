@@ -41,6 +41,8 @@ const middle = typed(square(40));
 const field = Float64Array.from({ length: 41 * 41 }, random(3));
 const colors = Float64Array.from({ length: 3 * 41 * 41 }, random(4));
 const constraints = { from: 'criticalPoints', delta: 0.4 };
+/** A family that is soon there. */
+const loose = { tolerance: 0.01, epsilonRange: [0.01, 1], factorizations: 2 };
 
 /** Everything there is, by name: what it gives for a mesh. */
 const calls = {
@@ -85,6 +87,13 @@ const calls = {
   'interpolate, biharmonic': (mesh) =>
     smooth(mesh, field, { method: 'interpolate', constraints, energy: 'biharmonic' }),
   leastSquares: (mesh) => smooth(mesh, field, { epsilon: 1, constraints }),
+  family: (mesh) =>
+    freed(new Smoother(mesh), (smoother) =>
+      freed(smoother.family(field, loose), (family) => {
+        const found = [family.choose().rule, family.lives({ perDecade: 1 }).kinds.length > 0, family.sweep().epsilons];
+        return [...found, [...family.values(0.1)].map((value) => value.toFixed(1))];
+      }),
+    ),
   lowPass: (mesh) => freed(new Smoother(mesh), (smoother) => smoother.lowPass(field, { iterations: 4 })),
   bilateral: (mesh) =>
     freed(new Smoother(mesh), (smoother) =>

@@ -382,19 +382,12 @@ describe('refused', () => {
     expectError(() => new Smoother(mesh, { cutoffWavelength: 1 }), 'UnknownOption', { option: 'cutoffWavelength' });
     expectError(() => new Smoother(mesh, { onProgress: 'tell me' }), 'InvalidOption', { option: 'onProgress' });
     expectError(() => new Smoother(mesh, { epsilon: 1 }), 'UnknownOption', { option: 'epsilon' });
+    expectError(() => new Smoother(mesh, { bounds: 'yes' }), 'InvalidOption', { option: 'bounds' });
     expectError(() => new Smoother(mesh, null), 'InvalidArgument', { argument: 'options' });
     expectError(() => smooth(mesh, f, { epsilon: -1 }), 'InvalidOption', { option: 'epsilon' });
-    expectError(() => smooth(mesh, f), 'InvalidOption', { option: 'epsilon' });
     expectError(() => smooth(mesh, f, { epsilon: 1, delta: 1 }), 'UnknownOption', { option: 'delta' });
     expectError(() => smooth(mesh, f, { epsilon: 1, method: 'blur' }), 'InvalidOption', { option: 'method' });
     expect(smooth(mesh, f, { epsilon: 1 }).values.length).toBe(4);
-  });
-
-  it('an ε that this version does not choose', () => {
-    const mesh = make(tetrahedron());
-    expectError(() => smooth(mesh, f, { epsilon: 'auto' }), 'UnsupportedOption', { option: 'epsilon', value: 'auto' });
-    expectError(() => new Smoother(mesh).tikhonov(f, { epsilon: 'auto' }), 'UnsupportedOption', { option: 'epsilon' });
-    expectError(() => new Smoother(mesh, { bounds: 'yes' }), 'InvalidOption', { option: 'bounds' });
   });
 
   it('values', () => {

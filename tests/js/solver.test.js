@@ -101,8 +101,11 @@ describe('with operator fem, tikhonov', () => {
     for (const cutoffWavelength of [0, -1, NaN, Infinity, 1e-100, 1e100, '1', [1], true]) {
       refused('InvalidOption', 'cutoffWavelength', { cutoffWavelength });
     }
-    refused('InvalidOption', 'epsilon', {});
-    refused('InvalidOption', 'epsilon', { cutoffWavelength: null });
+    for (const options of [undefined, {}, { cutoffWavelength: null }]) {
+      expectError(() => smoother.tikhonov(f, options), 'InvalidOption', { option: 'epsilon' });
+      // There ε has a default: it is chosen.
+      expect(smooth(mesh, f, { ...fem, ...options }).report.choice.rule).toBe('gcv');
+    }
     refused('UnknownOption', 'cutoffwavelength', { cutoffwavelength: 1 });
     expectError(() => smoother.tikhonov([...f.slice(1), NaN], { cutoffWavelength: 2 }), 'NonFiniteValue', {
       vertex: 62,

@@ -11,6 +11,8 @@ const make = ({ positions, triangles }) => new TriMesh(positions, triangles);
 const shape = square(100);
 const values = Float64Array.from({ length: 101 * 101 }, random(5));
 const constraints = { from: 'criticalPoints', delta: 0.5 };
+/** A family that is soon there. */
+const loose = { tolerance: 0.01, epsilonRange: [0.01, 1] };
 
 const analyses = {
   criticalPoints: (mesh, more) => mesh.criticalPoints(values, more),
@@ -30,6 +32,13 @@ const smoothings = {
   tikhonov: (smoother, more) => smoother.tikhonov(values, { epsilon: 0.1, ...more }),
   interpolate: (smoother, more) => smoother.interpolate(values, { constraints, ...more }),
   leastSquares: (smoother, more) => smoother.leastSquares(values, { epsilon: 1, constraints, ...more }),
+  sweep: (smoother, more) => smoother.sweep(values, { ...loose, counts: true, ...more }),
+  family: (smoother, more) => {
+    const family = smoother.family(values, { ...loose, ...more });
+    const found = [family.values(0.1), family.shifts, family.errorEstimate];
+    family.free();
+    return found;
+  },
   lowPass: (smoother, more) => smoother.lowPass(values, { iterations: 200, ...more }),
   bilateral: (smoother, more) =>
     smoother.bilateral(values, { iterations: 3, radius: 3, sigmaDistance: 1, sigmaValue: 1, ...more }),

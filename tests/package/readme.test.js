@@ -49,6 +49,17 @@ it('keeps the critical points that are constrained', () => {
   ]);
 });
 
+it('chooses an ε that is nearly the best', () => {
+  const lines = run('choose-epsilon.mjs').trimEnd().split('\n');
+  expect(lines).toHaveLength(17);
+  expect(lines[0]).toMatch(/^Generalised cross-validation is least at ε = 0\.08\d*, /);
+  expect(Number(/^error ([\d.]+) times/.exec(lines[1])[1])).toBeLessThan(1.05);
+  expect(lines[2]).toBe('ε = 1e-6: 1 minima, 2 saddles, 1 maxima');
+  expect(lines[12]).toMatch(/^ε = 1e\+4: 5\d\d minima, 11\d\d saddles, 5\d\d maxima$/);
+  // The torus has these two whatever the ε.
+  expect(lines.slice(13, 15).map((line) => line.split(',')[0]).sort()).toEqual(['maximum from ε = 1e-6 on', 'minimum from ε = 1e-6 on']); // prettier-ignore
+});
+
 it('prints the critical points of a file', () => {
   const lines = run('critical-points.mjs').trimEnd().split('\n');
   // The clean field of the torus is a height: the textbook's four points.

@@ -192,7 +192,10 @@ new Smoother(mesh, { precision: 'half' });
 new Smoother(mesh, { bounds: true, weights: 'intrinsicDelaunay' });
 // @ts-expect-error true or false
 new Smoother(mesh, { bounds: 'all' });
-same<typeof route, 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'none'>(true);
+same<
+  typeof route,
+  'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none'
+>(true);
 same<typeof precision, 'double' | 'single' | 'doubleAfterSingle'>(true);
 
 const operator: api.Operator = 'fem';
@@ -211,9 +214,7 @@ const short: api.Smoothed = smooth(mesh, heat, {
   weights: 'cotangent',
   solver: 'cholesky',
 });
-// @ts-expect-error not built yet
 smooth(mesh, heat, { epsilon: 'auto' });
-// @ts-expect-error ε has no default
 smooth(mesh, heat);
 
 // -------------------------------------------------------------------------------------------------------- constraints
@@ -291,8 +292,8 @@ smooth(mesh, heat, { method: 'tikhonov', constraints: [0], epsilon: 1 });
 smooth(mesh, heat, { constraints: [0], energy: 'harmonic' });
 // @ts-expect-error weights of constraints are for `leastSquares` of a smoother
 smooth(mesh, heat, { constraints: [0], epsilon: 1, weights: [1] });
-// @ts-expect-error an ε for each
 smooth(mesh, heat, { method: 'leastSquares', constraints: [0] });
+smooth(mesh, heat, { constraints: [0], epsilon: { rule: 'discrepancy' } });
 
 const { constrainedCriticalPoints, maximumPrinciple } = interpolated.report;
 same<typeof constrainedCriticalPoints | typeof preserved | typeof freeExtrema, number | null>(true);

@@ -10,6 +10,8 @@ export class Handle {
   #instance;
   #raw;
   #running = 0;
+  /** Whether the call that is running changes the object. */
+  #isChanging = false;
 
   constructor(kind, instance, raw) {
     this.#kind = kind;
@@ -27,7 +29,7 @@ export class Handle {
     return this.#run('call', action);
   }
 
-  /** Calls `action(raw, glue)`; other calls may run meanwhile. */
+  /** Calls `action(raw, glue)`; other calls that do not change the object may run meanwhile. */
   use(action) {
     return this.#run('work', action);
   }
@@ -35,7 +37,14 @@ export class Handle {
   /** Calls `action(raw, glue)`, which changes the object: no other call may run meanwhile. */
   useAlone(action) {
     this.#refuseWhileRunning('used again');
-    return this.use(action);
+    return this.use((raw, glue) => {
+      this.#isChanging = true;
+      try {
+        return action(raw, glue);
+      } finally {
+        this.#isChanging = false;
+      }
+    });
   }
 
   /** Gives the memory back. An object of an instance that was lost has none. */
@@ -51,6 +60,7 @@ export class Handle {
       const object = this.#kind;
       throw new MorseSmoothError('UseAfterFree', `this ${object} was freed`, { object });
     }
+    if (this.#isChanging) this.#refuseWhileRunning('used again');
     this.#running++;
     try {
       return this.#instance[how]((glue) => action(this.#raw, glue));

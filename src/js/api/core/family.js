@@ -25,11 +25,11 @@ export function toRule(value) {
 
 export class SmoothingFamily {
   constructor() {
-    throw invalidArgument('new SmoothingFamily', 'no call: `smoother.family(values)` makes one');
+    throw invalidArgument('family', 'made by `smoother.family(values)`');
   }
 
   get epsilonRange() {
-    return aboutOf(this).epsilonRange;
+    return aboutOf(this).epsilonRange.slice();
   }
 
   get dimension() {

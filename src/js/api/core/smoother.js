@@ -9,6 +9,9 @@ import { core } from './module.js';
 /** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
 const CONSTRAINED = ['interpolate', 'leastSquares'];
 
+/** How much of a sweep it is to make the family. */
+const SHARE_OF_FAMILY = 0.8;
+
 export class Smoother {
   #handle;
   #vertexCount;
@@ -54,6 +57,7 @@ export class Smoother {
   family(values, options) {
     const given = toOptions(options);
     if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
+    if (Array.isArray(given?.epsilonRange)) given.epsilonRange = [...given.epsilonRange];
     const numbers = toNumbers(values, 'values');
     const settings = withConstraints(this.#watching(given), this.#vertexCount);
     const raw = watched(settings, (settings) => this.#handle.useAlone((raw) => raw.family(numbers, settings)));
@@ -61,10 +65,12 @@ export class Smoother {
   }
 
   sweep(values, options) {
-    const { epsilons, counts, channel, ...rest } = toOptions(options) ?? {};
-    const family = this.family(values, rest);
+    const { epsilons, counts, channel, ...rest } = this.#watching(toOptions(options)) ?? {};
+    const numbers = isGiven(epsilons) ? toNumbers(epsilons, 'epsilons') : undefined;
+    const family = this.family(values, { ...rest, onProgress: within(0, SHARE_OF_FAMILY, rest.onProgress) });
     try {
-      return family.sweep({ epsilons, counts, channel, onProgress: rest.onProgress });
+      const onProgress = within(SHARE_OF_FAMILY, 1, rest.onProgress);
+      return family.sweep({ epsilons: numbers, counts, channel, onProgress });
     } finally {
       family.free();
     }
@@ -76,7 +82,9 @@ export class Smoother {
 
   /** The options of a call with what is to be called back: their own, or the smoother's. */
   #watching(given) {
-    return isGiven(this.#onProgress) && !isGiven(given?.onProgress) ? { ...given, onProgress: this.#onProgress } : given;
+    return isGiven(this.#onProgress) && !isGiven(given?.onProgress)
+      ? { ...given, onProgress: this.#onProgress }
+      : given;
   }
 
   #smooth(method, values, options) {
@@ -94,6 +102,12 @@ export function smooth(mesh, values, options) {
   const numbers = toNumbers(values, 'values');
   const given = withRule(withConstraints(toOptions(options), mesh.vertexCount));
   return watched(given, (settings) => source.use((rawMesh, glue) => glue.smooth(rawMesh, numbers, settings)));
+}
+
+/** Tells the progress of a part of a call as that of the whole. */
+function within(start, end, onProgress) {
+  if (typeof onProgress !== 'function') return onProgress;
+  return ({ phase, fraction }) => onProgress({ phase, fraction: start + (end - start) * fraction });
 }
 
 /** Options whose constraints are as the wasm module takes them. */
