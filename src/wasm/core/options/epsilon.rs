@@ -29,6 +29,11 @@ pub(super) fn epsilon(record: &Record, has_default: bool) -> (f64, Option<Epsilo
     }
 }
 
+/// What is expected where a rule may stand: for `epsilon` a number, too.
+fn expected(place: &str) -> &'static str {
+    if place == "epsilon" { EXPECTED } else { "\"auto\", or an object with a `rule`" }
+}
+
 /// A rule by its name, with what it needs.
 ///
 /// # Errors
@@ -37,11 +42,11 @@ pub(in crate::wasm::core) fn epsilon_rule(place: &'static str, value: &JsValue) 
     if let Some(name) = value.as_string() {
         return match name.as_str() {
             AUTO => Ok(EpsilonRule::default()),
-            _ => Err(OptionError::invalid(place, EXPECTED).into()),
+            _ => Err(OptionError::invalid(place, expected(place)).into()),
         };
     }
     if !value.is_object() || Array::is_array(value) {
-        return Err(OptionError::invalid(place, EXPECTED).into());
+        return Err(OptionError::invalid(place, expected(place)).into());
     }
     read(place, value, |record| match record.chosen("rule") {
         None => {
