@@ -299,12 +299,12 @@ impl Smoother {
         self.filter(values, &Method::Bilateral(*options))
     }
 
-    /// The smoothed fields for every ε of a range at once: about a dozen factorisations, after which each ε costs a product with a few
+    /// The smoothed fields for every ε of a range at once: six or seven factorisations, after which each ε costs a product with a few
     /// dozen vectors.
     ///
     /// # Definition
     /// See [`FamilyOptions`] and [`Family`]. x(ε) = (LᵀWL + εB)⁻¹εBf is sought in the space of f, its means, and the solutions with their
-    /// first two derivatives at some shifts ε_k, by Galerkin's condition: of all fields in the space it is the nearest one to the solution in the
+    /// first four derivatives at some shifts ε_k, by Galerkin's condition: of all fields in the space it is the nearest one to the solution in the
     /// norm of LᵀWL + εB. Each shift is taken where the estimated error is largest.
     ///
     /// # Properties

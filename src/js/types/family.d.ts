@@ -9,7 +9,7 @@
  * - `"atMostCriticalPoints"`: the largest ε, of twenty in each decade, that leaves no more than `count` critical points, saddles with
  *   multiplicity; `TooManyCriticalPoints` where none does
  *
- * Each takes a {@link SmoothingFamily}: about eight factorisations before the one for the ε that is chosen.
+ * Each takes a {@link SmoothingFamily}: about five factorisations before the one for the ε that is chosen.
  */
 export type Epsilon = number | EpsilonRule;
 

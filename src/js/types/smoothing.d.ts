@@ -245,7 +245,7 @@ export class Smoother {
   bilateral(values: Numbers, options: BilateralOptions & ProgressOptions): Smoothed;
 
   /**
-   * The smoothed fields of all ε at once: about a dozen factorisations, after which each ε takes milliseconds. Only one call of the smoother
+   * The smoothed fields of all ε at once: six or seven factorisations, after which each ε takes milliseconds. Only one call of the smoother
    * or of its families' `grow` runs at a time.
    *
    * @throws as the method; `InvalidOption` for the range and the tolerance

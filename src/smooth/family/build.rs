@@ -8,7 +8,7 @@ use super::members::{Family, Field, KeptGaps};
 use super::options::FamilyOptions;
 use super::reach::{counted, kernel};
 use super::small::dot;
-use super::space::{Kind, Space};
+use super::space::{DERIVATIVES, Kind, Space};
 
 use crate::error::{MeshError, OptionError, Result};
 use crate::smooth::channels::TOGETHER;
@@ -25,9 +25,9 @@ use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
 /// Where rounding keeps a family from its tolerance, more shifts than these do not help.
-const MOST_SHIFTS: usize = 24;
+const MOST_SHIFTS: usize = 16;
 /// So many shifts are usual; progress is told as if there were so many.
-const USUAL_SHIFTS: usize = 11;
+const USUAL_SHIFTS: usize = 7;
 /// A family that has not come to half of its least error after so many shifts gets no better.
 const PATIENCE: usize = 5;
 impl Family {
@@ -89,7 +89,7 @@ fn start(
     let n = operators.mesh.vertex_count() as u64;
     let count = input.channels.count();
     // Per channel: its values, thrice; the basis with its images, and what a shift adds. For all: probes and solutions.
-    let vectors = 2 * (3 * USUAL_SHIFTS + 2) + 8;
+    let vectors = 2 * ((1 + DERIVATIVES) * USUAL_SHIFTS + 2) + 8;
     memory::ensure(8 * n * ((vectors * count + 4 * TOGETHER + PROBES) as u64))?;
     let most = options.factorizations.unwrap_or(MOST_SHIFTS).min(MOST_SHIFTS);
     let steps = vec![(Phase::Factorization, 1.0); most.min(USUAL_SHIFTS)];
@@ -162,20 +162,20 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
     let mut stages = schedule.stages(watch);
     // Whatever fails leaves the family as it was.
-    let mut added: Vec<[Vec<f64>; 3]> = Vec::with_capacity(spaces.len());
+    let mut added: Vec<Vec<Vec<f64>>> = Vec::with_capacity(spaces.len());
     let mut traces: Vec<f64> = Vec::new();
     for group in spaces.chunks(TOGETHER) {
         let fields = group.iter().map(|space| space.field().to_vec()).collect();
         let solved = system.solve_fields(fields, epsilon, full, &mut stages)?.solutions;
         let solutions: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
-        // (S + εB)⁻¹εB of f − x and of that, beside as many probes as cost nothing more.
+        // (S + εB)⁻¹εB of f − x, of that and so on, beside as many probes as cost nothing more.
         let mut rest: Vec<Vec<f64>> = solutions
             .iter()
             .zip(group)
             .map(|(x, space)| space.field().iter().zip(x).map(|(f, x)| f - x).collect())
             .collect();
-        let mut derivatives = Vec::new();
-        for _ in 0..2 {
+        let mut of_spaces: Vec<Vec<Vec<f64>>> = solutions.into_iter().map(|x| vec![x]).collect();
+        for _ in 0..DERIVATIVES {
             let first = traces.len();
             let probes = &growth.probes[first..PROBES.min(first + TOGETHER.saturating_sub(rest.len()).max(1))];
             let right_hand_sides: Vec<Vec<f64>> = rest.iter().chain(probes).cloned().collect();
@@ -183,12 +183,10 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
             let mut solved: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
             traces.extend(probes.iter().zip(&solved[rest.len()..]).map(|(z, x)| dot(z, x)));
             solved.truncate(rest.len());
-            derivatives.push(solved.clone());
+            of_spaces.iter_mut().zip(&solved).for_each(|(vectors, y)| vectors.push(y.clone()));
             rest = solved;
         }
-        let second = derivatives.pop().unwrap_or_default();
-        let first = derivatives.pop().unwrap_or_default();
-        added.extend(solutions.into_iter().zip(first).zip(second).map(|((x, y), z)| [x, y, z]));
+        added.append(&mut of_spaces);
         stages.next_group();
     }
     let before: Vec<usize> = spaces.iter().map(Space::dimension).collect();
@@ -216,9 +214,10 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
 }
 
 /// Adds to every space what a shift gave for it.
-fn extend(spaces: &mut [Space], added: Vec<[Vec<f64>; 3]>, matrices: &Matrices, watch: &Watch<'_>) -> Result<()> {
+fn extend(spaces: &mut [Space], added: Vec<Vec<Vec<f64>>>, matrices: &Matrices, watch: &Watch<'_>) -> Result<()> {
     for (space, vectors) in spaces.iter_mut().zip(added) {
-        for (kind, vector) in [Kind::Solution, Kind::First, Kind::Second].into_iter().zip(vectors) {
+        for (order, vector) in vectors.into_iter().enumerate() {
+            let kind = if order == 0 { Kind::Solution } else { Kind::Derivative(order) };
             space.add(kind, vector, matrices, watch)?;
         }
     }

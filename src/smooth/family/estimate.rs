@@ -1,7 +1,7 @@
 //! How far the solutions of a family are from the exact ones.
 //!
 //! In such a space the residuals for all ε are multiples of one vector, by factors that are known from the shifts and the projected
-//! systems. The same holds for the smaller space without second derivatives, whose errors are known as the larger one is so much
+//! systems. The same holds for the smaller space without the highest derivatives, whose errors are known as the larger one is so much
 //! better. What an error is for its residual is nearly the same in both: so the errors of the small space, times the quotient of
 //! the two residuals, tell those of the large one. The quotient is measured at one ε.
 

@@ -172,19 +172,25 @@ pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// x + Σ c v, four vectors at a time.
-#[inline(never)]
 pub(super) fn add_combination(x: &mut [f64], vectors: &[Vec<f64>], coefficients: &[f64]) {
+    add_part_of_combination(x, vectors, 0, coefficients);
+}
+
+/// The same for the elements of the vectors from `start` on.
+#[inline(never)]
+fn add_part_of_combination(x: &mut [f64], vectors: &[Vec<f64>], start: usize, coefficients: &[f64]) {
+    let part = start..start + x.len();
     let mut blocks = vectors.chunks_exact(4);
     let mut shares = coefficients.chunks_exact(4);
     for (block, c) in (&mut blocks).zip(&mut shares) {
         let n = x.len();
-        let (v0, v1, v2, v3) = (&block[0][..n], &block[1][..n], &block[2][..n], &block[3][..n]);
+        let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|k| &block[k][part.clone()]);
         for i in 0..n {
             x[i] += (c[0] * v0[i] + c[1] * v1[i]) + (c[2] * v2[i] + c[3] * v3[i]);
         }
     }
     for (vector, c) in blocks.remainder().iter().zip(shares.remainder()) {
-        x.iter_mut().zip(vector).for_each(|(x, v)| *x += c * v);
+        x.iter_mut().zip(&vector[part.clone()]).for_each(|(x, v)| *x += c * v);
     }
 }
 
@@ -221,9 +227,7 @@ impl Piece<'_> {
     /// The elements of Σ c v.
     pub(super) fn combination(&mut self, coefficients: &[f64]) -> &[f64] {
         self.sum.fill(0.0);
-        for (vector, c) in self.vectors.iter().zip(coefficients) {
-            self.sum.iter_mut().zip(&vector[self.range.clone()]).for_each(|(x, v)| *x += c * v);
-        }
+        add_part_of_combination(&mut self.sum, self.vectors, self.range.start, coefficients);
         &self.sum
     }
 }

@@ -16,11 +16,12 @@ pub(super) enum Kind {
     Field,
     /// A solution.
     Solution,
-    /// Its derivative by ε, but for a factor.
-    First,
-    /// Its second derivative, but for a factor.
-    Second,
+    /// Its derivative by ε of this order, but for a factor.
+    Derivative(usize),
 }
+
+/// How many derivatives each shift gives: the solves for them are cheap beside its factor.
+pub(super) const DERIVATIVES: usize = 4;
 
 /// A growing space with the systems projected onto it.
 ///
@@ -54,7 +55,7 @@ pub(super) struct Space {
     field_data: f64,
     field_counted: f64,
     full: Pencil,
-    /// The same without the second derivatives: what errors are estimated with.
+    /// The same without the highest derivatives: what errors are estimated with.
     partial: Pencil,
 }
 
@@ -202,7 +203,7 @@ impl Space {
         let size = self.dimension();
         let unit = |i: usize| (0..size).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
         let all: Vec<Vec<f64>> = (0..size).map(unit).collect();
-        let kept = self.added.iter().filter(|(kind, _)| *kind != Kind::Second);
+        let kept = self.added.iter().filter(|(kind, _)| *kind != Kind::Derivative(DERIVATIVES));
         let padded = kept.map(|(_, coordinates)| {
             let mut column = coordinates.clone();
             column.resize(size, 0.0);
@@ -221,24 +222,30 @@ impl Space {
         (self.full, self.partial) = (full, partial);
     }
 
-    /// How many vectors of a kind there are.
-    fn count(&self, kinds: &[Kind]) -> usize {
-        self.added.iter().filter(|(kind, _)| kinds.contains(kind)).count()
+    /// Whether there is a vector of a kind.
+    fn has(&self, kind: Kind) -> bool {
+        self.added.iter().any(|(other, _)| *other == kind)
     }
 
     /// Whether what stays for ε → 0 is in the space on its own.
     fn has_kernel(&self) -> bool {
-        self.count(&[Kind::Kernel]) > 0
+        self.has(Kind::Kernel)
     }
 
     /// ln of what the residual for ε is in proportion to: the residuals of all ε are multiples of one vector.
     pub(super) fn log_residual(&self, epsilon: f64, shifts: &[f64], of: Which) -> f64 {
-        let (pencil, kinds): (_, &[Kind]) = match of {
-            Which::Full => (&self.full, &[Kind::Solution, Kind::First, Kind::Second]),
-            Which::Partial => (&self.partial, &[Kind::Solution, Kind::First]),
+        let (pencil, orders) = match of {
+            Which::Full => (&self.full, DERIVATIVES),
+            Which::Partial => (&self.partial, DERIVATIVES - 1),
         };
+        let is_of_shift = |kind: Kind| match kind {
+            Kind::Kernel | Kind::Field => false,
+            Kind::Solution => true,
+            Kind::Derivative(order) => order <= orders,
+        };
+        let count = self.added.iter().filter(|(kind, _)| is_of_shift(*kind)).count();
         // The same number for every shift, unless some vectors depended on others.
-        let each = self.count(kinds) as f64 / shifts.len().max(1) as f64;
+        let each = count as f64 / shifts.len().max(1) as f64;
         let distances: f64 = shifts.iter().map(|shift| libm::log((epsilon - shift).abs().max(f64::MIN_POSITIVE))).sum();
         libm::log(epsilon) + each * distances - pencil.log_divisors(epsilon, self.has_kernel())
     }
@@ -266,7 +273,7 @@ impl Space {
         x
     }
 
-    /// ‖x − y‖/‖x‖ for the solution x and that without second derivatives y.
+    /// ‖x − y‖/‖x‖ for the solution x and that without highest derivatives y.
     pub(super) fn difference(&self, epsilon: f64) -> f64 {
         let x = self.coefficients(epsilon, Which::Full);
         let y = self.coefficients(epsilon, Which::Partial);
@@ -278,7 +285,7 @@ impl Space {
     /// ‖x − f‖_B.
     pub(super) fn metric_norm(&self, epsilon: f64) -> f64 {
         // What no vector of the space reaches of f; nothing but rounding where f is among them.
-        let beyond = if self.count(&[Kind::Field]) > 0 { 0.0 } else { self.field_data - self.full.projected() };
+        let beyond = if self.has(Kind::Field) { 0.0 } else { self.field_data - self.full.projected() };
         (self.full.misfit(epsilon) + beyond.max(0.0)).sqrt()
     }
 
