@@ -284,8 +284,11 @@ fn peaks(values: &[f64]) -> Vec<usize> {
     places
 }
 
-/// A positive number with four digits, for people.
+/// A number with four digits, for people.
 fn rounded(number: f64) -> String {
+    if !(number > 0.0 && number.is_finite()) {
+        return number.to_string();
+    }
     let mut exponent = (libm::log(number) / LN_10).floor() as i32;
     let shifted = |exponent: i32| {
         let power = (0..exponent.abs()).fold(1.0, |power, _| power * 10.0);

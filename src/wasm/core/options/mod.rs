@@ -2,11 +2,13 @@
 
 mod constraints;
 mod epsilon;
+mod family;
 mod record;
 mod smoothing;
 
 pub(super) use constraints::{Constraining, from_rule};
-pub(super) use epsilon::{FamilyChoice, epsilon_rule};
+pub(super) use epsilon::epsilon_rule;
+pub(super) use family::FamilyChoice;
 pub(super) use smoothing::{ShortMethod, Smoothing, smoother};
 
 use js_sys::Uint32Array;
