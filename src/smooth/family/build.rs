@@ -28,6 +28,8 @@ use crate::support::watch::{Phase, Watch};
 const MOST_SHIFTS: usize = 16;
 /// So many shifts are usual; progress is told as if there were so many.
 const USUAL_SHIFTS: usize = 7;
+/// The share of the tolerance that the estimate after the first shift has to be below.
+const FIRST: f64 = 1e-4;
 /// A family that has not come to half of its least error after so many shifts gets no better.
 const PATIENCE: usize = 5;
 impl Family {
@@ -204,8 +206,10 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
         (least, _) if growth.worst.1 < 0.5 * least => (growth.worst.1, 0),
         (least, ago) => (least, ago + 1),
     };
-    growth.is_complete =
-        growth.worst.1 <= growth.tolerance || growth.least.1 >= PATIENCE || growth.shifts.len() >= MOST_SHIFTS;
+    // The first estimate rests on one place of the range alone: it has to be far below what is wanted.
+    let (count, wanted) = (growth.shifts.len(), growth.tolerance);
+    let is_good = growth.worst.1 <= if count > 1 { wanted } else { FIRST * wanted };
+    growth.is_complete = is_good || growth.least.1 >= PATIENCE || count >= MOST_SHIFTS;
     if growth.is_complete {
         growth.probes = Vec::new();
         spaces.iter_mut().for_each(Space::finish);
