@@ -28,8 +28,8 @@ const TABLE = {
     },
     // 36 kB for the sparse solver, 32 kB for persistence, Morse complex and the like, 29 kB for constraints, filters and the
     // intrinsic Delaunay Laplacian, 27 kB for missing values, stopping, memory that is made sure of, welding with a tolerance and
-    // extrema that cannot be avoided, 83 kB for all else.
-    limit: 209_400,
+    // extrema that cannot be avoided, 87 kB for all else.
+    limit: 212_500,
   },
   files: {
     ...besideTheMain('files'),
