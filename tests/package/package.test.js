@@ -138,7 +138,7 @@ describe('Node', () => {
   });
 
   it('requires it', () => {
-    const names = ['MorseSmoothError', 'Smoother', 'TriMesh', 'default', 'smooth', 'version'];
+    const names = ['MorseSmoothError', 'Smoother', 'SmoothingFamily', 'TriMesh', 'default', 'smooth', 'version'];
     expect(run('require.cjs')).toEqual({ ...expected, keys: names });
   });
 
