@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::estimate::{Calibration, PER_DECADE, logarithmic};
+use super::estimate::{Calibration, PER_DECADE, logarithmic, margin};
 use super::growth::{Growth, PROBES};
 use super::members::{Family, Field, KeptGaps};
 use super::options::FamilyOptions;
@@ -191,8 +191,9 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
         added.append(&mut of_spaces);
         stages.next_group();
     }
+    let kind = Kind::OfShift(growth.shifts.len());
     let before: Vec<usize> = spaces.iter().map(Space::dimension).collect();
-    if let Err(error) = extend(spaces, added, matrices, watch) {
+    if let Err(error) = extend(spaces, added, kind, matrices, watch) {
         spaces.iter_mut().zip(before).for_each(|(space, dimension)| space.truncate(dimension));
         return Err(error);
     }
@@ -208,7 +209,7 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     };
     // The first estimate rests on one place of the range alone: it has to be far below what is wanted.
     let (count, wanted) = (growth.shifts.len(), growth.tolerance);
-    let is_good = growth.worst.1 <= if count > 1 { wanted } else { FIRST * wanted };
+    let is_good = margin(count) * growth.worst.1 <= if count > 1 { wanted } else { FIRST * wanted };
     growth.is_complete = is_good || growth.least.1 >= PATIENCE || count >= MOST_SHIFTS;
     if growth.is_complete {
         growth.probes = Vec::new();
@@ -218,10 +219,15 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
 }
 
 /// Adds to every space what a shift gave for it.
-fn extend(spaces: &mut [Space], added: Vec<Vec<Vec<f64>>>, matrices: &Matrices, watch: &Watch<'_>) -> Result<()> {
+fn extend(
+    spaces: &mut [Space],
+    added: Vec<Vec<Vec<f64>>>,
+    kind: Kind,
+    matrices: &Matrices,
+    watch: &Watch<'_>,
+) -> Result<()> {
     for (space, vectors) in spaces.iter_mut().zip(added) {
-        for (order, vector) in vectors.into_iter().enumerate() {
-            let kind = if order == 0 { Kind::Solution } else { Kind::Derivative(order) };
+        for vector in vectors {
             space.add(kind, vector, matrices, watch)?;
         }
     }

@@ -1,7 +1,7 @@
 //! How far the solutions of a family are from the exact ones.
 //!
 //! In such a space the residuals for all ε are multiples of one vector, by factors that are known from the shifts and the projected
-//! systems. The same holds for the smaller space without the highest derivatives, whose errors are known as the larger one is so much
+//! systems. The same holds for the smaller space without the highest derivative of each shift, whose errors are known as the larger one is so much
 //! better. What an error is for its residual is nearly the same in both: so the errors of the small space, times the quotient of
 //! the two residuals, tell those of the large one. The quotient is measured at one ε.
 
@@ -13,11 +13,22 @@ use crate::smooth::system::Matrices;
 
 /// Errors of so many ε in each decade are looked at.
 pub(super) const PER_DECADE: f64 = 24.0;
-/// Estimates are this much larger than what the quotient says: single ones are below the error by as much.
-const SAFETY: f64 = 1.5;
-/// The same where few shifts leave most of the range beyond them, where estimates are rough.
-const SAFETY_OF_FEW: f64 = 3.0;
-const FEW: usize = 6;
+/// How much larger estimates are than what the quotient says, after so many shifts: it was found to be below the error by as much,
+/// the more so the more of the range lies beyond the shifts.
+fn safety(shifts: usize) -> f64 {
+    match shifts {
+        0..=3 => 3.0,
+        4..=6 => 2.0,
+        _ => 1.5,
+    }
+}
+
+/// How far below the tolerance the estimate has to be for a family to be complete: where shifts are few, those errors count that
+/// were three times what the quotient says.
+pub(super) fn margin(shifts: usize) -> f64 {
+    if shifts <= 6 { 3.0 / safety(shifts) } else { 1.0 }
+}
+
 /// Where the two spaces are equally good, the difference between them says nothing; this is the largest quotient that counts.
 const LARGEST_QUOTIENT: f64 = 0.95;
 
@@ -72,8 +83,7 @@ impl Calibration {
         let full = space.log_residual(epsilon, shifts, Which::Full);
         let partial = space.log_residual(epsilon, shifts, Which::Partial);
         let quotient = libm::exp(full - partial + self.0).min(LARGEST_QUOTIENT);
-        let safety = if shifts.len() <= FEW { SAFETY_OF_FEW } else { SAFETY };
         // The error of the small space is the difference and what the large one errs.
-        safety * space.difference(epsilon) * quotient / (1.0 - quotient * quotient).sqrt()
+        safety(shifts.len()) * space.difference(epsilon) * quotient / (1.0 - quotient * quotient).sqrt()
     }
 }

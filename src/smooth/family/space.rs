@@ -14,10 +14,8 @@ pub(super) enum Kind {
     Kernel,
     /// The field itself, where the data term reaches all of it: what stays for ε → ∞.
     Field,
-    /// A solution.
-    Solution,
-    /// Its derivative by ε of this order, but for a factor.
-    Derivative(usize),
+    /// The solution for a shift, by its number, and after it derivatives of the solution by ε, but for factors.
+    OfShift(usize),
 }
 
 /// How many derivatives each shift gives: the solves for them are cheap beside its factor.
@@ -55,7 +53,7 @@ pub(super) struct Space {
     field_data: f64,
     field_counted: f64,
     full: Pencil,
-    /// The same without the highest derivatives: what errors are estimated with.
+    /// The same without the last vector of each shift: what errors are estimated with.
     partial: Pencil,
 }
 
@@ -203,8 +201,9 @@ impl Space {
         let size = self.dimension();
         let unit = |i: usize| (0..size).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
         let all: Vec<Vec<f64>> = (0..size).map(unit).collect();
-        let kept = self.added.iter().filter(|(kind, _)| *kind != Kind::Derivative(DERIVATIVES));
-        let padded = kept.map(|(_, coordinates)| {
+        let kept = (0..size).filter(|&place| !self.is_last_of_shift(place));
+        let padded = kept.map(|place| {
+            let (_, coordinates) = &self.added[place];
             let mut column = coordinates.clone();
             column.resize(size, 0.0);
             column
@@ -222,6 +221,12 @@ impl Space {
         (self.full, self.partial) = (full, partial);
     }
 
+    /// Whether a vector is the last one of its shift.
+    fn is_last_of_shift(&self, place: usize) -> bool {
+        let kind = self.added[place].0;
+        matches!(kind, Kind::OfShift(_)) && self.added.get(place + 1).is_none_or(|(next, _)| *next != kind)
+    }
+
     /// Whether there is a vector of a kind.
     fn has(&self, kind: Kind) -> bool {
         self.added.iter().any(|(other, _)| *other == kind)
@@ -234,20 +239,20 @@ impl Space {
 
     /// ln of what the residual for ε is in proportion to: the residuals of all ε are multiples of one vector.
     pub(super) fn log_residual(&self, epsilon: f64, shifts: &[f64], of: Which) -> f64 {
-        let (pencil, orders) = match of {
-            Which::Full => (&self.full, DERIVATIVES),
-            Which::Partial => (&self.partial, DERIVATIVES - 1),
+        let pencil = match of {
+            Which::Full => &self.full,
+            Which::Partial => &self.partial,
         };
-        let is_of_shift = |kind: Kind| match kind {
-            Kind::Kernel | Kind::Field => false,
-            Kind::Solution => true,
-            Kind::Derivative(order) => order <= orders,
-        };
-        let count = self.added.iter().filter(|(kind, _)| is_of_shift(*kind)).count();
-        // The same number for every shift, unless some vectors depended on others.
-        let each = count as f64 / shifts.len().max(1) as f64;
-        let distances: f64 = shifts.iter().map(|shift| libm::log((epsilon - shift).abs().max(f64::MIN_POSITIVE))).sum();
-        libm::log(epsilon) + each * distances - pencil.log_divisors(epsilon, self.has_kernel())
+        // As often as the shift has vectors: fewer than others where some of them depended on what was there.
+        let mut distances = 0.0;
+        for (place, (kind, _)) in self.added.iter().enumerate() {
+            if let Kind::OfShift(shift) = kind
+                && !(of == Which::Partial && self.is_last_of_shift(place))
+            {
+                distances += libm::log((epsilon - shifts[*shift]).abs().max(f64::MIN_POSITIVE));
+            }
+        }
+        libm::log(epsilon) + distances - pencil.log_divisors(epsilon, self.has_kernel())
     }
 
     fn coefficients(&self, epsilon: f64, of: Which) -> Vec<f64> {
@@ -273,7 +278,7 @@ impl Space {
         x
     }
 
-    /// ‖x − y‖/‖x‖ for the solution x and that without highest derivatives y.
+    /// ‖x − y‖/‖x‖ for the solution x and that without the last vector of each shift y.
     pub(super) fn difference(&self, epsilon: f64) -> f64 {
         let x = self.coefficients(epsilon, Which::Full);
         let y = self.coefficients(epsilon, Which::Partial);
