@@ -48,6 +48,29 @@ stage_error! {
             /// That ε.
             epsilon: f64,
         } => "no epsilon of the range leaves {wanted} critical points or fewer: the fewest are {least}, at epsilon = {epsilon:e}; a range that reaches lower may help",
+        /// A constant field is to get extrema.
+        ConstantField {} => "the field is constant, so that nothing says how high its extrema should be; prescribe extrema of a field that varies",
+        /// A vertex is to be a minimum and a maximum.
+        ConflictingExtremum {
+            /// The vertex.
+            vertex: u32,
+        } => "vertex {vertex} is to be a minimum and a maximum; choose one of them",
+        /// Neighbours are to be extrema of one kind.
+        AdjacentExtrema {
+            /// One of them.
+            first: u32,
+            /// The other one.
+            second: u32,
+            /// `minima` or `maxima`.
+            kind: &'static str,
+        } => "vertices {first} and {second} are neighbours, and cannot both be {kind}; choose one of them",
+        /// The values that are to be kept leave no room for a field with the chosen extrema.
+        Infeasible {
+            /// A vertex from which steps lead up.
+            from: u32,
+            /// A vertex that they lead to.
+            to: u32,
+        } => "steps lead up from vertex {from} to vertex {to}, whose values, or the range, leave no room for them; free values (option `values`), a smaller margin or prominence, or other extrema help",
         /// The steps of a filter make values grow beyond all bounds.
         Diverged {
             /// Steps taken.

@@ -116,7 +116,7 @@ impl Default for Threshold {
 
 impl Threshold {
     /// In the units of the values. `option` is its name in errors.
-    pub(super) fn absolute(self, range: ValueRange, option: &str) -> Result<f64, OptionError> {
+    pub(crate) fn absolute(self, range: ValueRange, option: &str) -> Result<f64, OptionError> {
         let (Self::Relative(threshold) | Self::Absolute(threshold)) = self;
         if !(threshold.is_finite() && threshold >= 0.0) {
             return Err(OptionError::invalid(option, "a finite number that is not negative"));

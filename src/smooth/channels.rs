@@ -24,14 +24,20 @@ pub(super) struct Channel {
 
 impl Channel {
     fn new(mesh: &TriMesh, values: Vec<f64>, range: ValueRange) -> Self {
-        let length = range.length();
+        let mut channel = Self { values: Vec::new(), range, normalized: Vec::new() };
+        channel.normalized = channel.normalize(mesh, &values);
+        Self { values, ..channel }
+    }
+
+    /// Values in the units of the input, scaled by its range.
+    pub(super) fn normalize(&self, mesh: &TriMesh, values: &[f64]) -> Vec<f64> {
+        let length = self.range.length();
         let kinds = mesh.connectivity().link_kinds();
         let counts = |kind: LinkKind| length > 0.0 && kind != LinkKind::Isolated;
         let scaled = |(v, &kind): (&f64, &LinkKind)| {
-            if counts(kind) && !v.is_nan() { (v - range.min) / length } else { 0.0 }
+            if counts(kind) && !v.is_nan() { (v - self.range.min) / length } else { 0.0 }
         };
-        let normalized = values.iter().zip(kinds).map(scaled).collect();
-        Self { values, range, normalized }
+        values.iter().zip(kinds).map(scaled).collect()
     }
 
     /// Normalised values back in the units of the input. Only `changed` vertices can have new ones: the others keep theirs to the

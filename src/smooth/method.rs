@@ -5,12 +5,13 @@ use std::sync::Arc;
 use super::channels::Channels;
 use super::input::Input;
 use super::methods::{
-    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Regularization, TikhonovOptions,
+    BilateralOptions, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Regularization, TikhonovOptions,
     bilateral, interpolate, least_squares, low_pass, tikhonov,
 };
 use super::missing::{Gaps, Part, missing_vertices, to_whole};
 use super::names::MethodName;
 use super::operators::Operators;
+use super::prescribe::{self, Extrema, PrescribeOptions};
 use super::report::Smoothed;
 use super::schedule::Stages;
 use super::systems::Systems;
@@ -34,6 +35,8 @@ pub enum Method<'a> {
     LowPass(LowPassOptions),
     /// [`Smoother::bilateral`](super::Smoother::bilateral).
     Bilateral(BilateralOptions),
+    /// [`Smoother::prescribe`](super::Smoother::prescribe).
+    Prescribe(PrescribeOptions<'a>),
 }
 
 impl<'a> Method<'a> {
@@ -46,6 +49,7 @@ impl<'a> Method<'a> {
             Self::LeastSquares(_) => MethodName::LeastSquares,
             Self::LowPass(_) => MethodName::LowPass,
             Self::Bilateral(_) => MethodName::Bilateral,
+            Self::Prescribe(_) => MethodName::Prescribe,
         }
     }
 
@@ -58,6 +62,7 @@ impl<'a> Method<'a> {
             Self::LeastSquares(options) => options.channels,
             Self::LowPass(options) => options.channels,
             Self::Bilateral(options) => options.channels,
+            Self::Prescribe(options) => options.functional.channels(),
         }
     }
 
@@ -70,6 +75,7 @@ impl<'a> Method<'a> {
             Self::LeastSquares(options) => options.missing,
             Self::LowPass(options) => options.missing,
             Self::Bilateral(options) => options.missing,
+            Self::Prescribe(options) => options.functional.missing(),
         }
     }
 
@@ -78,6 +84,9 @@ impl<'a> Method<'a> {
         match self {
             Self::Tikhonov(options) => Self::Tikhonov(TikhonovOptions { epsilon, ..options }),
             Self::LeastSquares(options) => Self::LeastSquares(LeastSquaresOptions { epsilon, ..options }),
+            Self::Prescribe(options) => {
+                Self::Prescribe(PrescribeOptions { functional: options.functional.with_epsilon(epsilon), ..options })
+            }
             other => other,
         }
     }
@@ -86,8 +95,34 @@ impl<'a> Method<'a> {
         match self {
             Self::Interpolate(options) => Some(&options.constraints),
             Self::LeastSquares(options) => Some(&options.constraints),
+            Self::Prescribe(PrescribeOptions { functional: Functional::LeastSquares(options), .. }) => {
+                Some(&options.constraints)
+            }
             _ => None,
         }
+    }
+
+    /// The vertices that are named as extrema: of the input, or minima; and maxima.
+    fn extrema(&self) -> [&'a [u32]; 2] {
+        match self {
+            Self::Prescribe(PrescribeOptions { extrema: Extrema::OfInput(vertices), .. }) => [vertices, &[]],
+            Self::Prescribe(PrescribeOptions { extrema: Extrema::Named { minima, maxima }, .. }) => [minima, maxima],
+            _ => [&[], &[]],
+        }
+    }
+
+    /// The same with other vertices in their place.
+    fn with_extrema<'b>(self, minima: &'b [u32], maxima: &'b [u32]) -> Method<'b>
+    where
+        'a: 'b,
+    {
+        let Self::Prescribe(options) = self else { return self };
+        let extrema = match options.extrema {
+            Extrema::OfInput(_) => Extrema::OfInput(minima),
+            Extrema::Named { .. } => Extrema::Named { minima, maxima },
+            rule => rule,
+        };
+        Method::Prescribe(PrescribeOptions { extrema, ..options })
     }
 
     /// The same with other constraints.
@@ -104,6 +139,14 @@ impl<'a> Method<'a> {
                 let constraints = Constraints { features, ..options.constraints };
                 Method::LeastSquares(LeastSquaresOptions { constraints, ..options })
             }
+            Self::Prescribe(PrescribeOptions { functional: Functional::LeastSquares(of), .. }) => {
+                let constraints = Constraints { features, ..of.constraints };
+                let functional = Functional::LeastSquares(LeastSquaresOptions { constraints, ..of });
+                match self {
+                    Self::Prescribe(options) => Method::Prescribe(PrescribeOptions { functional, ..options }),
+                    other => other,
+                }
+            }
             other => other,
         }
     }
@@ -119,6 +162,10 @@ impl<'a> Method<'a> {
             Self::LeastSquares(options) => tikhonov::check_epsilon(options.epsilon)?,
             Self::LowPass(options) => low_pass::check(options)?,
             Self::Bilateral(options) => bilateral::check(options)?,
+            Self::Prescribe(options) => {
+                options.functional.check(smoother)?;
+                options.check()?;
+            }
         }
         if self.missing() == Missing::Fill && matches!(self, Self::LowPass(_) | Self::Bilateral(_)) {
             let reason = "filters cannot fill in missing values".to_owned();
@@ -146,6 +193,7 @@ impl<'a> Method<'a> {
             Self::LeastSquares(options) => least_squares::start(input, systems, options, watch),
             Self::LowPass(options) => low_pass::start(input, options, watch),
             Self::Bilateral(options) => bilateral::start(input, options, watch),
+            Self::Prescribe(options) => prescribe::start(input, systems, options, watch),
         }
     }
 }
@@ -211,7 +259,13 @@ pub(super) fn apply(
         Some(part) => {
             let mut whole = values.to_vec();
             part.known.scatter(&smoothed.values, method.channels(), &mut whole);
-            Smoothed { values: whole, reports: smoothed.reports }
+            let mut reports = smoothed.reports;
+            for prescribed in reports.iter_mut().filter_map(|report| report.prescribed.as_mut()) {
+                for list in [&mut prescribed.minima, &mut prescribed.maxima, &mut prescribed.unavoidable] {
+                    list.iter_mut().for_each(|v| *v = part.known.vertices[*v as usize]);
+                }
+            }
+            Smoothed { values: whole, reports }
         }
     })
 }
@@ -257,6 +311,9 @@ pub(super) fn on_input(
         _ => None,
     };
     let method = listed.as_ref().map_or(*method, |vertices| method.with_features(Features::Vertices(vertices)));
+    let [minima, maxima] = method.extrema().map(|listed| known.find(listed, mesh.vertex_count()));
+    let (minima, maxima) = (minima?, maxima?);
+    let method = method.with_extrema(&minima, &maxima);
     let of_part = known.gather(values, channels);
     let channels_of_part = Channels::new(&known.mesh, &of_part, channels, Arc::default())?;
     let input = Input { operators, channels: channels_of_part, gaps: None };

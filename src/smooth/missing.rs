@@ -155,6 +155,24 @@ pub(super) fn to_whole(vertices: &[u32], error: Error) -> Error {
         Error::Smooth(SmoothError::Unconstrained { component, vertex }) => {
             SmoothError::Unconstrained { component, vertex: whole(vertex) }.into()
         }
+        Error::Smooth(SmoothError::ConflictingExtremum { vertex }) => {
+            SmoothError::ConflictingExtremum { vertex: whole(vertex) }.into()
+        }
+        Error::Smooth(SmoothError::AdjacentExtrema { first, second, kind }) => {
+            SmoothError::AdjacentExtrema { first: whole(first), second: whole(second), kind }.into()
+        }
+        Error::Smooth(SmoothError::Infeasible { from, to }) => {
+            SmoothError::Infeasible { from: whole(from), to: whole(to) }.into()
+        }
+        Error::Field(FieldError::NotAnExtremum { vertex }) => {
+            FieldError::NotAnExtremum { vertex: whole(vertex) }.into()
+        }
+        Error::Field(FieldError::Unconstrained { component, vertex }) => {
+            FieldError::Unconstrained { component, vertex: whole(vertex) }.into()
+        }
+        Error::Field(FieldError::UnavoidableExtremum { vertex }) => {
+            FieldError::UnavoidableExtremum { vertex: whole(vertex) }.into()
+        }
         Error::Smooth(SmoothError::InvalidWeight { index, vertex }) => {
             SmoothError::InvalidWeight { index, vertex: whole(vertex) }.into()
         }

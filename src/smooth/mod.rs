@@ -15,6 +15,8 @@ mod missing;
 mod names;
 mod operators;
 mod options;
+mod prescribe;
+mod prescribed;
 mod report;
 mod routes;
 mod run;
@@ -29,10 +31,13 @@ pub use family::{EpsilonRule, ExtremumLife, Family, FamilyMethod, FamilyOptions,
 pub use maximum_principle::MaximumPrinciple;
 pub use method::Method;
 pub use methods::{
-    BilateralOptions, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions, epsilon_for_wavelength,
+    BilateralOptions, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions, TikhonovOptions,
+    epsilon_for_wavelength,
 };
 pub use names::{Equation, MethodName, Route, UsedPrecision};
 pub use options::{Metric, Operator, Precision, SmootherOptions, SolverChoice};
+pub use prescribe::{Extrema, ExtremumValues, PersistenceOf, PrescribeOptions, ResultRange};
+pub use prescribed::{PrescribeRoute, PrescribedReport};
 pub use report::{SmoothReport, Smoothed, SmoothnessEnergies, SolverReport, smoothness};
 pub use system::Energy;
 
@@ -297,6 +302,47 @@ impl Smoother {
     /// ```
     pub fn bilateral(&self, values: &[f64], options: &BilateralOptions) -> Result<Smoothed> {
         self.filter(values, &Method::Bilateral(*options))
+    }
+
+    /// The smoothest field that has exactly the chosen extrema: what no other method promises.
+    ///
+    /// # Definition
+    /// Of ‖Lx‖² + ε‖x − f‖²_B, as Tikhonov smoothing or least squares minimise it, the minimum among the fields that rise along the same
+    /// steps as a field with the chosen extrema: from its lowest neighbour to every vertex that is not to be a minimum, from every
+    /// vertex that is not to be a maximum to its highest neighbour, and along all edges of the chosen extrema, each time by the margin or
+    /// more. These fields are a convex set, and have no other extrema \[Bauer12\], \[Jacobson12\]. That field is the smoothed one, flooded until
+    /// the chosen extrema are left. The minimum is found by an interior-point method \[Mehrotra92\], \[Gondzio96\].
+    ///
+    /// # Properties
+    /// The minima and maxima by (value, id) are the chosen vertices and [`PrescribedReport::unavoidable`]; before the field is returned they are
+    /// looked at. On closed surfaces saddles then number minima + maxima − χ. The energy is that of the best such field
+    /// but for [`PrescribedReport::gap`]; [`PrescribedReport::unconstrained_energy`] is a bound for all fields. That no field with the
+    /// same extrema that rises along *other* steps has less energy is not promised. Chosen extrema may become shallow unless `prominence` says
+    /// how high they are, and values may leave the range of the input unless `range` forbids it. Vertices that no operator acts on stay
+    /// near their values.
+    ///
+    /// # Errors
+    /// Those of [`Smoother::tikhonov`] or [`Smoother::least_squares`]; `IndexOutOfBounds`, `NotAnExtremum`, `ConflictingExtremum`,
+    /// `AdjacentExtrema` for what is chosen; `Unconstrained` where a component of the mesh has no chosen minimum or maximum; `Infeasible`
+    /// where kept values or the range leave no room; `ConstantField`; `InapplicableOption` for several channels and for missing values
+    /// that are to be filled in. `NotConverged` returns no field.
+    ///
+    /// # Example
+    /// ```
+    /// use morse_smooth::mesh::shapes::{self, Random};
+    /// use morse_smooth::smooth::{Extrema, PersistenceOf, PrescribeOptions, Smoother, SmootherOptions};
+    /// let mesh = shapes::sphere(3)?;
+    /// let mut noise = Random::new(1);
+    /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
+    /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
+    /// let extrema = Extrema::Most { minima: 1, maxima: 2, of: PersistenceOf::Smoothed };
+    /// let options = PrescribeOptions { extrema, ..PrescribeOptions::default() };
+    /// let report = smoother.prescribe(&field, &options)?.reports.remove(0);
+    /// assert_eq!((report.after.minima, report.after.maxima, report.after.saddles), (1, 2, 1));
+    /// # Ok::<(), morse_smooth::Error>(())
+    /// ```
+    pub fn prescribe(&mut self, values: &[f64], options: &PrescribeOptions<'_>) -> Result<Smoothed> {
+        self.apply(values, &Method::Prescribe(*options), &Watch::none())
     }
 
     /// The smoothed fields for every ε of a range at once: six or seven factorisations, after which each ε costs a product with a few

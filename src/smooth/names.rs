@@ -15,10 +15,13 @@ pub enum MethodName {
     LowPass,
     /// The bilateral filter.
     Bilateral,
+    /// The smoothest field with prescribed extrema.
+    Prescribe,
 }
 
 named! { MethodName {
     Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares", LowPass = "lowPass", Bilateral = "bilateral",
+    Prescribe = "prescribe",
 } }
 
 /// What a method solves: an equation of \[Patane09\], or the reference of a filter there.

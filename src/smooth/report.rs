@@ -10,6 +10,7 @@ use super::maximum_principle::MaximumPrinciple;
 use super::missing::Part;
 use super::names::{Equation, MethodName, Route, UsedPrecision};
 use super::operators::Operators;
+use super::prescribed::PrescribedReport;
 use super::routes::difference;
 use super::system::{Solution, Solved};
 use super::unconstrained::UnconstrainedComponents;
@@ -72,6 +73,8 @@ pub struct SmoothReport {
     pub perturbation_factor: Option<f64>,
     /// How ε was chosen, where a rule did it.
     pub choice: Option<ChosenEpsilon>,
+    /// What became of prescribed extrema; `None` for other methods.
+    pub prescribed: Option<PrescribedReport>,
     /// For harmonic interpolation.
     pub maximum_principle: Option<MaximumPrinciple>,
     /// How the system was solved.
@@ -149,6 +152,7 @@ pub(super) struct Measures {
     /// ‖x − f‖_B; nothing for the identity.
     pub(super) metric_norm: Option<f64>,
     pub(super) maximum_principle: Option<MaximumPrinciple>,
+    pub(super) prescribed: Option<PrescribedReport>,
 }
 
 /// What only the method knows of a result.
@@ -246,6 +250,7 @@ pub(super) fn measure(
         free_extrema: kept.as_ref().map(|kept| kept.free_extrema),
         perturbation_factor: facts.perturbation_factor,
         choice: None,
+        prescribed: facts.measures.prescribed,
         maximum_principle: facts.measures.maximum_principle,
         solver: facts.solver,
     })

@@ -41,7 +41,16 @@ pub(super) struct Solution {
     pub(super) vertices: Arc<[u32]>,
     /// Their normalised values.
     pub(super) x: Vec<f64>,
+    /// All values in the units of the input, where they were found in these: then the two above are empty.
+    pub(super) values: Option<Vec<f64>>,
     pub(super) solver: SolverReport,
+}
+
+impl Solution {
+    /// Values in the units of the input.
+    pub(super) fn of_values(values: Vec<f64>, solver: SolverReport) -> Self {
+        Self { vertices: [].into(), x: Vec::new(), values: Some(values), solver }
+    }
 }
 
 /// The values of a channel from those that some vertices have got: normalised, and in the units of the input.
@@ -91,7 +100,10 @@ pub(super) fn run(
         // The result twice, its difference, what the method measures, an image by L, and all that on the part with values.
         memory::ensure(80 * n)?;
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(found.solutions)) {
-            let (x, values) = whole(operators, about, channel, &solution.vertices, &solution.x);
+            let (x, values) = match solution.values {
+                Some(values) => (channel.normalize(&operators.mesh, &values), values),
+                None => whole(operators, about, channel, &solution.vertices, &solution.x),
+            };
             stages.watch.tick(MEASURED * n)?;
             let facts = Facts {
                 measures: procedure.measures(&x, &channel.normalized),

@@ -17,6 +17,8 @@ pub(super) enum Work {
     Iterations,
     /// The steps of a filter.
     Filter,
+    /// An interior-point method, which divides its work itself.
+    Exact,
 }
 
 impl Work {
@@ -28,6 +30,7 @@ impl Work {
             Self::PreconditionedByFactor => [25.0, 31.0, 80.0, 4.0],
             Self::Iterations => [0.0, 0.0, 200.0, 4.0],
             Self::Filter => [0.0, 0.0, 95.0, 5.0],
+            Self::Exact => [0.0, 0.0, 500.0, 5.0],
         }
     }
 }

@@ -239,7 +239,7 @@ impl Procedure for Member<'_> {
                 refinement_steps: 0,
                 iterations: 0,
             };
-            solutions.push(Solution { vertices: Arc::clone(matrices.unknowns()), x, solver });
+            solutions.push(Solution { vertices: Arc::clone(matrices.unknowns()), x, values: None, solver });
         }
         Ok(Found { solutions, perturbation_factor: None })
     }
@@ -247,6 +247,6 @@ impl Procedure for Member<'_> {
     fn measures(&mut self, x: &[f64], f: &[f64]) -> Measures {
         let matrices = &self.family.matrices;
         let moved: Vec<f64> = matrices.unknowns().iter().map(|&v| x[v as usize] - f[v as usize]).collect();
-        Measures { metric_norm: Some(matrices.mass().norm(&moved)), maximum_principle: None }
+        Measures { metric_norm: Some(matrices.mass().norm(&moved)), ..Measures::default() }
     }
 }

@@ -101,7 +101,7 @@ impl Procedure for Interpolation<'_> {
 
     fn measures(&mut self, x: &[f64], _: &[f64]) -> Measures {
         let certify = |certifier: &Certifier<'_>| certifier.certify(x);
-        Measures { metric_norm: None, maximum_principle: self.certifier.as_ref().map(certify) }
+        Measures { maximum_principle: self.certifier.as_ref().map(certify), ..Measures::default() }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The methods: the options of each, and what is specific to it.
 
 pub(super) mod bilateral;
+mod functional;
 mod grid;
 pub(super) mod interpolate;
 pub(super) mod least_squares;
@@ -9,6 +10,7 @@ mod regularized;
 pub(super) mod tikhonov;
 
 pub use bilateral::BilateralOptions;
+pub use functional::Functional;
 pub use interpolate::InterpolateOptions;
 pub use least_squares::LeastSquaresOptions;
 pub use low_pass::LowPassOptions;
@@ -61,7 +63,7 @@ fn filtered(channel: &Channel, x: &[f64], iterations: usize) -> Solution {
     let moved = |&v: &u32| x[v as usize] != channel.normalized[v as usize];
     let vertices: Vec<u32> = (0..x.len() as u32).filter(moved).collect();
     let x = vertices.iter().map(|&v| x[v as usize]).collect();
-    Solution { vertices: vertices.into(), x, solver: SolverReport::none(iterations) }
+    Solution { vertices: vertices.into(), x, values: None, solver: SolverReport::none(iterations) }
 }
 
 /// # Errors

@@ -52,7 +52,7 @@ impl Procedure for Regularized<'_> {
         for &v in unknowns.iter() {
             moved.push(x[v as usize] - f[v as usize]);
         }
-        Measures { metric_norm: Some(self.system.mass().norm(&moved)), maximum_principle: None }
+        Measures { metric_norm: Some(self.system.mass().norm(&moved)), ..Measures::default() }
     }
 }
 
@@ -63,6 +63,7 @@ pub(super) fn solutions(unknowns: &Arc<[u32]>, mut solved: Solved) -> Vec<Soluti
         vertices: Arc::clone(unknowns),
         solver: SolverReport::new(&solved, &solution),
         x: solution.x,
+        values: None,
     };
     solutions.into_iter().map(with_report).collect()
 }

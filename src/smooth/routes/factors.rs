@@ -99,6 +99,18 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros, smallest_eigenvalue }
     }
 
+    pub(super) fn analysis(&self) -> &CholeskyAnalysis {
+        &self.analysis
+    }
+
+    /// Gives away the last factor, if it is one in double precision; any other is dropped.
+    pub(super) fn take_double(&mut self) -> Option<CholeskyFactor<D>> {
+        match self.last.take() {
+            Some((_, Factor::Double(factor))) => Some(factor),
+            _ => None,
+        }
+    }
+
     /// Whether the last factor has this key.
     pub(super) fn has(&self, key: &FactorKey) -> bool {
         self.last.as_ref().is_some_and(|(known, _)| known == key)

@@ -25,6 +25,7 @@ use crate::support::watch::{Phase, Watch};
 use complex::ComplexFactors;
 pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
 use real::RealRoute;
+pub(super) use real::Square;
 use refine::Iterate;
 pub(super) use task::{Accuracy, Answer, FactorKey, SolverSettings, Task};
 
@@ -145,6 +146,16 @@ impl Routes {
             }
         }
         Err(first_failure)
+    }
+
+    /// The matrix of a regularised system with its analysis, and the last factor in double precision, whose memory can be used again.
+    pub(super) fn square(&mut self, task: &Task<'_>, watch: &Watch<'_>) -> Result<Square, SolveError> {
+        self.last = None;
+        self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
+        match &mut self.real {
+            Some(real) => real.square(task),
+            none => none.insert(RealRoute::new(task, watch)?).square(task),
+        }
     }
 
     /// Gives the memory of the last factors back.

@@ -14,9 +14,6 @@ pub(in crate::smooth) struct Problem<'a> {
 }
 
 /// How the matrix A of a [`Problem`] makes the system.
-///
-/// An interior-point method, which adds DᵀVD for edges D and other V in every step, will be a form beside `Regularized`: its values
-/// go to places of the pattern of AᵀA that one analysis holds, and the step's number goes into the key of the factor.
 #[derive(Clone, Copy)]
 pub(in crate::smooth) enum Form<'a> {
     /// Ax = −c, with A symmetric and positive definite.
@@ -191,6 +188,20 @@ impl<'a> Problem<'a> {
             image.iter_mut().zip(data.mass.times(x)).for_each(|(l, b)| *l += epsilon * b);
         }
         image
+    }
+
+    /// What the system minimises, twice: (Ax + c)ᵀW(Ax + c) + ε(x − f)ᵀB(x − f), divided by the scale.
+    pub(in crate::smooth) fn energy(&self, side: &RightHandSide, x: &[f64]) -> f64 {
+        let mut image = self.image(x, &side.offset);
+        if let Some(weights) = self.weights() {
+            image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w.sqrt());
+        }
+        let smoothness = norm(&image);
+        let fidelity = self.data().map_or(0.0, |data| {
+            let distance = data.mass.norm(&difference(&side.field, x));
+            data.scaled_epsilon() * distance * distance
+        });
+        smoothness * smoothness / self.scale() + fidelity
     }
 
     /// The diagonal of the matrix.

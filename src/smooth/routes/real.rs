@@ -13,7 +13,7 @@ use crate::smooth::Precision;
 use crate::smooth::data_term::Mass;
 use crate::smooth::names::Route;
 use crate::smooth::schedule::Stages;
-use crate::solve::{CholeskyAnalysis, gram};
+use crate::solve::{CholeskyAnalysis, CholeskyFactor, gram};
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
@@ -26,6 +26,14 @@ pub(super) struct RealRoute {
     /// The values on the pattern that was analysed.
     values: Vec<f64>,
     factors: Factors<f64, f32>,
+}
+
+/// The matrix AᵀWA/scale + εB, its analysis, and the memory of a factor.
+pub(in crate::smooth) struct Square {
+    pub(in crate::smooth) analysis: CholeskyAnalysis,
+    /// On the pattern that was analysed.
+    pub(in crate::smooth) values: Vec<f64>,
+    pub(in crate::smooth) factor: Option<CholeskyFactor<f64>>,
 }
 
 impl RealRoute {
@@ -48,6 +56,14 @@ impl RealRoute {
         plan.begin(0)?;
         let analysis = CholeskyAnalysis::new(pattern, watch)?;
         Ok(Self { values, factors: Factors::new(analysis) })
+    }
+
+    /// Gives away the matrix of a system, and the factor.
+    pub(super) fn square(&mut self, task: &Task<'_>) -> Result<Square, SolveError> {
+        let analysis = self.factors.analysis().clone();
+        memory::ensure(size_of_val(&*self.values) as u64)?;
+        let values = values(&self.values, analysis.pattern(), &task.problem);
+        Ok(Square { analysis, values, factor: self.factors.take_double() })
     }
 
     /// Whether the last factor has this key.

@@ -11,6 +11,7 @@ pub(super) use reduced::ReducedSystem;
 pub(super) use regularized::{Matrices, RegularizedSystem};
 
 use super::names::{Route, UsedPrecision};
+pub(super) use super::routes::Square;
 use super::routes::{Answer, Problem, RightHandSide};
 use crate::error::{Cancelled, Error, OutOfMemory, SmoothError, SolveError};
 use crate::support::memory;

@@ -7,12 +7,12 @@ use nalgebra_sparse::CscMatrix;
 use super::{COPIED, ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::{Result, SmoothError};
 use crate::operators::{MassScale, lumped_mass_diagonal};
-use crate::smooth::Operator;
+use crate::smooth::{Operator, Precision, SolverChoice};
 use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
 use crate::smooth::operators::Operators;
 use crate::smooth::routes::{
-    DataPart, FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, Symmetry, Task,
+    Accuracy, DataPart, FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, Square, Symmetry, Task,
 };
 use crate::smooth::schedule::{Stages, Work};
 use crate::solve::submatrix;
@@ -120,6 +120,20 @@ impl RegularizedSystem {
     /// See [`Routes::forecast`].
     pub(in crate::smooth) fn forecast(&self, epsilon: f64, settings: SolverSettings) -> (Work, bool, bool) {
         self.routes.forecast(&self.matrices.problem(epsilon), &self.matrices.key(epsilon), settings)
+    }
+
+    /// The matrix for an ε with its analysis, for a method that adds to it and factors it itself.
+    pub(in crate::smooth) fn square(&mut self, epsilon: f64, watch: &Watch<'_>) -> Result<Square> {
+        let Self { matrices, routes } = self;
+        let settings = SolverSettings {
+            choice: SolverChoice::Cholesky,
+            precision: Precision::Double,
+            bounds: false,
+            accuracy: Accuracy::Full,
+        };
+        let problem = matrices.problem(epsilon);
+        let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &[], settings };
+        Ok(routes.square(&task, watch).map_err(|error| on_mesh(&matrices.unknowns, error))?)
     }
 
     /// Solves for every channel of normalised values.
