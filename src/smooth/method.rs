@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::channels::Channels;
 use super::input::Input;
 use super::methods::{
-    BilateralOptions, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Regularization, TikhonovOptions,
-    bilateral, interpolate, least_squares, low_pass, tikhonov,
+    BilateralOptions, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Regularization,
+    TikhonovOptions, bilateral, interpolate, least_squares, low_pass, tikhonov,
 };
 use super::missing::{Gaps, Part, missing_vertices, to_whole};
 use super::names::MethodName;

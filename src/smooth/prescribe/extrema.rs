@@ -121,8 +121,7 @@ pub(super) fn chosen(
 
 /// Of the first `pairs` of a diagram so many minima and maxima, after the essential ones.
 fn most_persistent(diagram: &PersistenceDiagram, most: [usize; 2], pairs: usize) -> Chosen {
-    let mut chosen =
-        Chosen { minima: diagram.essential_minima.clone(), maxima: diagram.essential_maxima.clone() };
+    let mut chosen = Chosen { minima: diagram.essential_minima.clone(), maxima: diagram.essential_maxima.clone() };
     let of_kind = |kind: CriticalKind, most: usize| {
         let pairs = diagram.pairs[..pairs].iter().filter(move |pair| pair.kind == kind);
         pairs.map(|pair| pair.extremum).take(most)
@@ -180,7 +179,9 @@ impl Chosen {
             if let (false, Some(lowest)) = (component.has[0], lowest) {
                 self.minima.push(lowest);
             }
-            if let (false, Some(highest)) = (component.has[1], highest.filter(|v| component.has[0] || Some(*v) != lowest)) {
+            if let (false, Some(highest)) =
+                (component.has[1], highest.filter(|v| component.has[0] || Some(*v) != lowest))
+            {
                 self.maxima.push(highest);
             }
         }

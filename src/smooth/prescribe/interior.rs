@@ -66,7 +66,11 @@ impl Steps {
         let mut diagonal = Vec::with_capacity(steps.len());
         let mut beside = Vec::with_capacity(steps.len());
         let at = |row: u32, column: u32| -> Result<u32, SolveError> {
-            if is_free(row) && is_free(column) { Ok(quadratic.place(row as usize, column as usize)? as u32) } else { Ok(NOWHERE) }
+            if is_free(row) && is_free(column) {
+                Ok(quadratic.place(row as usize, column as usize)? as u32)
+            } else {
+                Ok(NOWHERE)
+            }
         };
         for &Step { from, to, .. } in &steps {
             diagonal.push([at(from, from)?, at(to, to)?]);
@@ -232,7 +236,12 @@ impl Point {
     }
 
     /// Goes one step; how many solves it took.
-    fn advance(&mut self, quadratic: &mut Quadratic<'_>, steps: &Steps, watch: &Watch<'_>) -> Result<usize, SolveError> {
+    fn advance(
+        &mut self,
+        quadratic: &mut Quadratic<'_>,
+        steps: &Steps,
+        watch: &Watch<'_>,
+    ) -> Result<usize, SolveError> {
         let m = self.slacks.len();
         let weights: Vec<f64> = self.multipliers.iter().zip(&self.slacks).map(|(z, s)| z / s).collect();
         quadratic.factor(&|values| steps.add_weights(&weights, values), watch)?;
@@ -282,17 +291,15 @@ impl Point {
         watch: &Watch<'_>,
     ) -> Result<Direction, SolveError> {
         // Hdx − Dᵀdz = r, D dx − ds = −p, z ds + s dz = −e, without ds and dz.
-        let pulls: Vec<f64> = (0..self.slacks.len())
-            .map(|k| -excess[k] / self.slacks[k] - weights[k] * self.primal[k])
-            .collect();
+        let pulls: Vec<f64> =
+            (0..self.slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * self.primal[k]).collect();
         let mut right = self.dual.clone();
         steps.add_transposed(&pulls, &mut right);
         quadratic.clear_fixed(&mut right);
         let x = quadratic.solve(&right, watch)?;
         let mut slacks = steps.rises(&x);
         add(&mut slacks, 1.0, &self.primal);
-        let multipliers =
-            (0..slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * slacks[k]).collect();
+        let multipliers = (0..slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * slacks[k]).collect();
         Ok(Direction { x, slacks, multipliers })
     }
 

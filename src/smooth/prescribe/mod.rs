@@ -7,7 +7,9 @@ mod extrema;
 mod interior;
 mod options;
 mod procedure;
+mod prominence;
 mod quadratic;
+mod ranking;
 mod representative;
 mod steps;
 

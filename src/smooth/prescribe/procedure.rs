@@ -5,8 +5,9 @@ use std::sync::Arc;
 use super::extrema::{Chosen, chosen};
 use super::interior::{Optimum, Steps, minimize};
 use super::options::{ExtremumValues, PrescribeOptions, ResultRange};
+use super::prominence;
 use super::quadratic::Quadratic;
-use super::representative::{Representative, representative};
+use super::representative::{Flooded, Representative, flooded, representative};
 use super::steps::{self, GROUND, Step};
 use crate::error::{Result, SmoothError};
 use crate::field::{CriticalKind, DeltaOptions, ScalarField, VertexOrder, critical_points};
@@ -120,7 +121,7 @@ impl Prescribing<'_, '_> {
             &ScalarField::new(&mesh, &smooth.values)?,
             watch,
         )?;
-        let first = representative(&ScalarField::new(&mesh, &smooth.values)?, &chosen, range, watch)?;
+        let first = flooded(&ScalarField::new(&mesh, &smooth.values)?, &chosen, range, watch)?;
         if self.options.preview {
             let preview = self.preview(&smooth, first, channel);
             plan.finish()?;
@@ -146,12 +147,7 @@ impl Prescribing<'_, '_> {
     }
 
     /// The flooded field as it is.
-    fn preview(
-        &self,
-        smooth: &Smooth,
-        flooded: Representative,
-        channel: &Channel,
-    ) -> Result<(Solution, PrescribedReport)> {
+    fn preview(&self, smooth: &Smooth, flooded: Flooded, channel: &Channel) -> Result<(Solution, PrescribedReport)> {
         let normalized = |value: &f64| (value - channel.range.min) / channel.range.length();
         let x: Vec<f64> = flooded.values.iter().map(normalized).collect();
         let unconstrained_energy = self.energy(channel, &smooth.x);
@@ -187,6 +183,8 @@ struct Search<'a, 'b> {
     quadratic: Quadratic<'b>,
     /// The smoothed field at the variables, with the kept values of extrema.
     start: Vec<f64>,
+    /// The smoothed field on the whole mesh, normalised.
+    smooth: &'a [f64],
     unconstrained_energy: f64,
     margin: f64,
     prominence: Option<f64>,
@@ -210,23 +208,23 @@ impl Prescribing<'_, '_> {
         channel: &Channel,
         smooth: &Smooth,
         chosen: &Chosen,
-        first: Representative,
+        first: Flooded,
         watch: &Watch<'_>,
     ) -> Result<(Solution, PrescribedReport)> {
         let (epsilon, range) = (self.epsilon(), channel.range.length());
         let mesh = self.mesh().clone();
-        let mut representatives = vec![first];
+        let mut representatives = vec![representative(&mesh, first, watch)?];
         if self.options.representatives == 3 {
             for factor in OTHER_EPSILONS {
                 let other = self.smoothed(channel, factor * epsilon, watch)?;
                 let other = ScalarField::new(&mesh, &other.values)?;
-                representatives.push(representative(&other, chosen, range, watch)?);
+                let other = flooded(&other, chosen, range, watch)?;
+                representatives.push(representative(&mesh, other, watch)?);
             }
         }
         let matrices: Arc<Matrices> = Arc::clone(self.system.matrices());
         let square: Square = self.system.square(epsilon, watch)?;
-        let mut quadratic =
-            Quadratic::new(mesh.connectivity(), &matrices, epsilon, channel, &smooth.x, square, watch)?;
+        let mut quadratic = Quadratic::new(mesh.connectivity(), &matrices, epsilon, channel, &smooth.x, square, watch)?;
         let mut start: Vec<f64> = quadratic.vertices.iter().map(|&v| smooth.x[v as usize]).collect();
         let unconstrained_energy = quadratic.energy(&start);
         let mut kept = Vec::new();
@@ -236,10 +234,11 @@ impl Prescribing<'_, '_> {
             keep(&mut quadratic, &kept, &mut start, watch)?;
             // The order of the vertices is that of the smoothest field with these values; and where that is impossible, of the input.
             let values = channel_values(channel, &quadratic.vertices, &start, &kept);
-            representatives = vec![
-                representative(&ScalarField::new(&mesh, &values)?, chosen, range, watch)?,
-                representative(&ScalarField::new(&mesh, &channel.values)?, chosen, range, watch)?,
-            ];
+            representatives.clear();
+            for values in [&values, &channel.values] {
+                let flooded = flooded(&ScalarField::new(&mesh, values)?, chosen, range, watch)?;
+                representatives.push(representative(&mesh, flooded, watch)?);
+            }
         }
         let largest = channel.range.min.abs().max(channel.range.max.abs());
         let margin = self.options.margin.max(STEPS_OF_DOUBLES * (largest.next_up() - largest) / range);
@@ -248,6 +247,7 @@ impl Prescribing<'_, '_> {
             mesh: &mesh,
             quadratic,
             start,
+            smooth: &smooth.x,
             unconstrained_energy,
             margin,
             prominence: self.options.prominence,
@@ -281,7 +281,9 @@ impl Search<'_, '_> {
                 plan.begin(0)?;
             }
             match self.candidate(representative, watch) {
-                Ok(candidate) if best.as_ref().is_none_or(|best| candidate.energy < best.energy) => best = Some(candidate),
+                Ok(candidate) if best.as_ref().is_none_or(|best| candidate.energy < best.energy) => {
+                    best = Some(candidate)
+                }
                 Ok(_) => {}
                 Err(crate::error::Error::Smooth(error @ SmoothError::Infeasible { .. })) => {
                     failure.get_or_insert(error);
@@ -294,8 +296,8 @@ impl Search<'_, '_> {
         };
         if options.again {
             plan.begin(0)?;
-            let values = self.values(&best.optimum.x);
-            let again = self.candidate(Representative { values, ..best.representative.clone() }, watch)?;
+            let heights = self.values(&best.optimum.x);
+            let again = self.candidate(Representative { heights, ..best.representative.clone() }, watch)?;
             if again.energy < best.energy {
                 best = again;
             }
@@ -306,10 +308,22 @@ impl Search<'_, '_> {
 
     /// The field of the least energy that rises as a representative does.
     fn candidate(&mut self, representative: Representative, watch: &Watch<'_>) -> Result<Candidate> {
-        let order = VertexOrder::of_checked(&representative.values);
+        let order = VertexOrder::of_checked(&representative.heights);
         let extrema = &representative.extrema;
         let mut steps = steps::steps(self.mesh.connectivity(), order, extrema, self.margin)?;
-        if let Some(_prominence) = self.prominence {}
+        if let Some(prominence) = self.prominence {
+            let (connectivity, unavoidable) = (self.mesh.connectivity(), &representative.unavoidable);
+            prominence::raise(
+                &mut steps,
+                connectivity,
+                order,
+                extrema,
+                unavoidable,
+                self.smooth,
+                prominence,
+                self.margin,
+            )?;
+        }
         if self.range == ResultRange::Input {
             let inside = INSIDE * self.margin;
             steps.extend(extrema.minima.iter().map(|&to| Step { from: GROUND, to, least: inside }));
@@ -387,12 +401,7 @@ impl Search<'_, '_> {
 }
 
 /// Fixes the values that are kept, and finds the smoothest field that has them.
-fn keep(
-    quadratic: &mut Quadratic<'_>,
-    kept: &[(u32, f64)],
-    start: &mut [f64],
-    watch: &Watch<'_>,
-) -> Result<()> {
+fn keep(quadratic: &mut Quadratic<'_>, kept: &[(u32, f64)], start: &mut [f64], watch: &Watch<'_>) -> Result<()> {
     let mut is_fixed = vec![false; start.len()];
     for &(v, value) in kept {
         if let Ok(place) = quadratic.vertices.binary_search(&v) {

@@ -72,8 +72,19 @@ impl<'a> Quadratic<'a> {
         }
         let side = RightHandSide { field: matrices.restrict(&channel.normalized), offset: Vec::new() };
         let is_fixed = vec![false; vertices.len()];
-        let mut quadratic =
-            Self { matrices, epsilon, vertices, reached, side, others, analysis, values, factor, is_fixed, load: Vec::new() };
+        let mut quadratic = Self {
+            matrices,
+            epsilon,
+            vertices,
+            reached,
+            side,
+            others,
+            analysis,
+            values,
+            factor,
+            is_fixed,
+            load: Vec::new(),
+        };
         let weight = quadratic.outer_weight();
         for k in 0..quadratic.others.len() {
             let place = quadratic.others[k].0 as usize;

@@ -5,7 +5,7 @@
 //! ones; and as they all go up in the order of one field, there is such a field.
 
 use super::extrema::Chosen;
-use super::representative::around;
+use super::ranking::around;
 use crate::error::{Result, SmoothError};
 use crate::field::VertexOrder;
 use crate::mesh::{Connectivity, LinkKind};
@@ -89,7 +89,9 @@ pub(super) fn check(steps: &[Step], order: VertexOrder<'_>, fixed: &dyn Fn(u32) 
     let n = order.values().len();
     memory::ensure((28 * n + 8 * steps.len()) as u64)?;
     let mut ascending: Vec<u32> = (0..n as u32).collect();
-    ascending.sort_unstable_by(|&a, &b| if order.is_below(a, b) { core::cmp::Ordering::Less } else { core::cmp::Ordering::Greater });
+    ascending.sort_unstable_by(|&a, &b| {
+        if order.is_below(a, b) { core::cmp::Ordering::Less } else { core::cmp::Ordering::Greater }
+    });
     let mut rank = vec![0_u32; n];
     for (place, &v) in (0..).zip(&ascending) {
         rank[v as usize] = place;

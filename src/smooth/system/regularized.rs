@@ -7,7 +7,6 @@ use nalgebra_sparse::CscMatrix;
 use super::{COPIED, ENTRY, Solved, ensure_solving, on_mesh, solved};
 use crate::error::{Result, SmoothError};
 use crate::operators::{MassScale, lumped_mass_diagonal};
-use crate::smooth::{Operator, Precision, SolverChoice};
 use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
 use crate::smooth::operators::Operators;
@@ -15,6 +14,7 @@ use crate::smooth::routes::{
     Accuracy, DataPart, FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, Square, Symmetry, Task,
 };
 use crate::smooth::schedule::{Stages, Work};
+use crate::smooth::{Operator, Precision, SolverChoice};
 use crate::solve::submatrix;
 use crate::support::memory;
 use crate::support::watch::Watch;

@@ -130,8 +130,9 @@ pub(crate) const RULES: Rules = Rules {
             "smooth/prescribe",
             &[
                 &["extrema"],
-                &["options", "representative"],
-                &["steps"],
+                &["options", "ranking"],
+                &["representative", "steps"],
+                &["prominence"],
                 &["quadratic"],
                 &["interior"],
                 &["procedure"],
