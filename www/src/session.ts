@@ -238,14 +238,20 @@ export class Session {
   updateAfter(wanted: Settings, send: Send): void {
     const field = this.known(wanted.field);
     const given = this.fields.get(field)!;
-    const before = given.known;
     const key = smoothingKey({ ...wanted, field });
     if (key === this.leftOut) return;
     this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       if (!this.smooth(given, { ...wanted, field }, key, send)) return;
     }
-    const values = this.smoothed!;
+    this.showAfter(this.smoothed!, { ...wanted, field }, key, send);
+    this.settings = { ...wanted, field };
+  }
+
+  /** Sends what is due of the side after. `key`: everything that the values depend on. */
+  private showAfter(values: Float64Array, wanted: Settings, key: string, send: Send): void {
+    const { field } = wanted;
+    const before = this.fields.get(field)!.known;
     const holes = omitting(values);
     const parts: Part[] = [];
     const keys: [string, string][] = [];
@@ -284,7 +290,6 @@ export class Session {
       parts.push(differencePart(this.scene, before, values));
     for (const [slot, slotKey] of keys) this.sent.set(slot, slotKey);
     parts.forEach(send);
-    this.settings = { ...wanted, field };
   }
 
   /** False where there is nothing to hold the field with: that is said, and the page goes on without a smoothed field. */

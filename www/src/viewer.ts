@@ -24,8 +24,8 @@ import { along, basinColors, textureOf, withGaps } from './colormap';
 import { CurveLayer, segmentsOf } from './curves';
 import { fieldOfView, frame } from './framing';
 import { GlyphLayer, radiusOf } from './glyphs';
+import type { Points } from './glyphs';
 import { Marker } from './marker';
-import type { LitPoints } from './marker';
 import { hitOf, listenToClicks, nearestOf } from './picking';
 import { Places } from './places';
 import type { Found, Look } from './protocol';
@@ -212,7 +212,7 @@ export class Viewer {
   }
 
   /** `path`: the two vertices of each segment of a line between the points, where it is known. */
-  setLit(points: LitPoints | null, path: Uint32Array = new Uint32Array(0)): void {
+  setLit(points: Points | null, path: Uint32Array = new Uint32Array(0)): void {
     if (points && this.look && this.places && this.model.visible)
       this.marker.set(points, this.look.solids, this.places, path);
     else this.marker.clear();
