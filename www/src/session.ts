@@ -18,9 +18,12 @@ import type { Field } from './gaps';
 import { meanEdgeOf, rangeOf } from './measures';
 import type { Coloring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
+import { Families, whyNoFamily } from './smoothing/family';
 import { Methods } from './smoothing/methods';
+import { isQuick, quickPart } from './smoothing/preview';
 import {
   constraintsKey,
+  familyKey,
   hasConstraints,
   smoothingKey,
   smoothingOf,
@@ -47,7 +50,15 @@ export class Session {
   private readonly triangles: Uint32Array;
   private readonly meanEdge: number;
   private readonly methods: Methods;
+  /** Of the settings behind the field after. */
+  readonly families: Families;
   private smoothed: Float64Array | null = null;
+  /** How long it took. */
+  private milliseconds = 0;
+  /** Whether the page shows another ε than that of the settings. */
+  private isPreview = false;
+  /** The vertex of each corner of the surface. */
+  private corners: Uint32Array | null = null;
   /** Of the field before. */
   private pairs: PersistencePairs | null = null;
   /** Of the field before. */
@@ -71,6 +82,7 @@ export class Session {
     this.scene = new Scene(this.positions, this.triangles);
     this.meanEdge = meanEdgeOf(this.positions, this.triangles);
     this.methods = new Methods(this.mesh, this.meanEdge, onProgress);
+    this.families = new Families(onProgress);
     this.entries = [];
     for (const [label, values] of Object.entries(file.fields))
       this.enter({ key: `file:${label}`, label, origin: 'file' }, values);
@@ -157,6 +169,7 @@ export class Session {
   }
 
   free(): void {
+    this.families.drop();
     this.methods.free();
     this.scene.free();
     this.mesh.free();
@@ -244,8 +257,44 @@ export class Session {
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       if (!this.smooth(given, { ...wanted, field }, key, send)) return;
     }
-    this.showAfter(this.smoothed!, { ...wanted, field }, key, send);
     this.settings = { ...wanted, field };
+    this.isPreview = false;
+    this.showAfter(this.smoothed!, this.settings, key, send);
+    this.prepareFamily(given, this.settings, send);
+  }
+
+  private prepareFamily(field: Field, settings: Settings, send: Send): void {
+    const found = hasConstraints(settings) ? this.found : null;
+    const job = {
+      key: familyKey(settings),
+      why: whyNoFamily(settings, this.mesh.vertexCount),
+      cost: this.milliseconds,
+      make: () => this.methods.family(field, settings, found),
+    };
+    this.families.prepare(job, send);
+  }
+
+  /** Shows another ε, without a report, where its field is at hand; what is saved stays what it was. */
+  preview(wanted: Settings, whole: boolean, send: Send): void {
+    const settings = { ...wanted, field: this.known(wanted.field) };
+    const read = this.families.read(familyKey(settings), settings.epsilon);
+    if (!read) return;
+    const { values, error } = read;
+    send({ kind: 'previewed', error });
+    this.isPreview = true;
+    if (whole || isQuick(this.mesh)) return this.showAfter(values, settings, `preview ${smoothingKey(settings)}`, send);
+    this.forgetShown();
+    const { coloring } = settings;
+    const before = this.fields.get(settings.field)!.known;
+    this.corners ??= this.scene.surface().vertices;
+    send(quickPart(this.mesh, values, this.corners, rangeOf(before), settings));
+    if (isByBasins(coloring)) send(this.basins('after', values, coloring, 0).part);
+    if (coloring === 'difference') send(differencePart(this.scene, before, values));
+  }
+
+  /** After a preview that came to nothing the page gets back what it had. */
+  endPreview(send: Send): void {
+    if (this.isPreview && this.settings && this.smoothed) this.updateAfter(this.settings, send);
   }
 
   /** Sends what is due of the side after. `key`: everything that the values depend on. */
@@ -301,7 +350,8 @@ export class Session {
       const { values, ...report } = this.methods.run(before, wanted, this.pairs!, found);
       this.smoothed = values;
       this.sent.set('smoothed', key);
-      send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
+      this.milliseconds = performance.now() - start;
+      send({ kind: 'report', report: { ...report, milliseconds: this.milliseconds } });
       return true;
     } catch (error) {
       const reason = error instanceof Unheld ? nothingHeld(wanted) : partUnheld(error, this.mesh.topology.components);
@@ -315,7 +365,13 @@ export class Session {
 
   private forgetAfter(): void {
     this.smoothed = null;
-    for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
+    this.families.drop();
+    this.sent.delete('smoothed');
+    this.forgetShown();
+  }
+
+  private forgetShown(): void {
+    for (const slot of [...this.sent.keys()]) if (slot.startsWith('after.')) this.sent.delete(slot);
   }
 
   private hierarchyPart(side: Side, values: Float64Array, hierarchy: Hierarchy, solids: Solids[]): Part {
@@ -356,8 +412,6 @@ export class Session {
 
 /** No vertex is constrained at all: found out before the package is asked. */
 class Unheld extends Error {}
-
-const isAfter = (slot: string): boolean => slot === 'smoothed' || slot.startsWith('after.');
 
 const isByBasins = (coloring: Coloring): coloring is 'minima' | 'maxima' =>
   coloring === 'minima' || coloring === 'maxima';

@@ -25,6 +25,12 @@ export class Status {
       }, STOP_AFTER);
   }
 
+  /** The page is not yet at rest, though nobody has to wait. */
+  preview(what: string): void {
+    this.root.dataset['state'] = 'working';
+    this.line.textContent = what;
+  }
+
   /** Only where it takes long enough to be read. */
   progress(fraction: number): void {
     if (!this.stop.hidden) this.line.textContent = `Working… ${Math.round(100 * fraction)} %`;

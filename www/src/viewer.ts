@@ -19,11 +19,11 @@ import {
   WireframeGeometry,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { Camera, Lines, Solids, Surface } from 'morse-smooth/snapshot';
+import type { Camera, Lines, Solids, SolidSize, Surface } from 'morse-smooth/snapshot';
 import { along, basinColors, textureOf, withGaps } from './colormap';
 import { CurveLayer, segmentsOf } from './curves';
 import { fieldOfView, frame } from './framing';
-import { GlyphLayer, radiusOf } from './glyphs';
+import { GlyphLayer, radiusOf, solidsAt } from './glyphs';
 import type { Points } from './glyphs';
 import { Marker } from './marker';
 import { hitOf, listenToClicks, nearestOf } from './picking';
@@ -177,6 +177,14 @@ export class Viewer {
     this.surface.geometry.setAttribute('uv', along(shades));
     this.model.visible = true;
     this.draw();
+  }
+
+  /** Colors and critical points of another field on the way, without its lines. `open`: whether the surface is seen from both sides. */
+  setPreview(shades: Float32Array, points: Points, size: SolidSize, open: boolean): void {
+    if (!this.look || !this.places) return;
+    this.surface.geometry.setAttribute('uv', along(shades));
+    for (const curves of Object.values(this.curves)) curves.clear();
+    this.setSolids(solidsAt(points, this.look.solids, this.places, radiusOf(size, points.vertices.length), open));
   }
 
   /** `stepped`: colors with steps between them. */
