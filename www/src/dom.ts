@@ -29,6 +29,13 @@ export function short(value: number): string {
   return Number(value.toPrecision(3)).toString().replace('-', '−');
 }
 
+/** Of a relative error: one digit. */
+export function about(error: number): string {
+  if (error < 1e-9) return 'below 1e−9';
+  if (error < 1e-4) return `about ${error.toExponential(0).replace('e-', 'e−')}`;
+  return `about ${short(Number((100 * error).toPrecision(1)))} %`;
+}
+
 export function whole(value: number): string {
   return value.toLocaleString('en').replace('-', '−');
 }

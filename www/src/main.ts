@@ -3,7 +3,7 @@ import type { SolidSize } from 'morse-smooth/snapshot';
 import { Client } from './client';
 import { Colors } from './colors';
 import { Controls } from './controls';
-import { element, input, short } from './dom';
+import { about, element, input } from './dom';
 import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
@@ -416,8 +416,7 @@ function moveEpsilon(): void {
 /** `error`: how far the field that is shown may be from the exact one, in comparison with it; null where it is that. */
 function showPreview(error: number | null): void {
   document.documentElement.toggleAttribute('data-preview', error !== null);
-  if (error !== null)
-    status.preview(`Preview, error ${error < 1e-6 ? 'below 1e−6' : `about ${short(Number(error.toPrecision(1)))}`}`);
+  if (error !== null) status.preview(`Preview, error ${about(error)}`);
 }
 
 /** The ways between pairs are asked for when somebody first points at one. */

@@ -15,7 +15,10 @@ export class EpsilonCounts {
 
   constructor(box: HTMLElement, events: EpsilonPlotEvents) {
     this.plot = plotIn(box, {
-      scales: { x: { time: false, range: () => this.ends }, y: COUNT_SCALE },
+      scales: {
+        x: { time: false, range: () => this.ends },
+        y: { ...COUNT_SCALE, range: (_plot, _low, high) => [0, Math.max(9, 4 * (high ?? 0))] },
+      },
       axes: [powerAxis('ε', { size: 24, space: 44 }), countAxis()],
       series: [
         {},
@@ -66,12 +69,11 @@ export class EpsilonCounts {
     const place = (epsilon: number): number =>
       plot.valToPos(Math.min(this.ends[1], Math.max(this.ends[0], Math.log10(epsilon))), 'x', true);
     ctx.save();
-    inRows(state.choices, place).forEach((choice, row) => {
-      const x = place(choice.epsilon);
-      const y = bbox.top + (ROW * (row + 0.5) + 2) * ratio;
-      upright(plot, x, y, RULES[choice.rule].color, 1.25, [5, 3]);
-      drawName(plot, choice, x, y);
-    });
+    const choices = inRows(state.choices, place);
+    const rowOf = (row: number): number => bbox.top + (ROW * (row + 0.5) + 2) * ratio;
+    choices.forEach(({ epsilon, rule }, row) =>
+      upright(plot, place(epsilon), rowOf(row), RULES[rule].color, 1.25, [5, 3]),
+    );
     if (state.hovered !== null) upright(plot, place(state.hovered), bbox.top, SOFT, 1, [2, 2]);
     const x = place(state.epsilon);
     upright(plot, x, bbox.top, ACCENT, 2, []);
@@ -79,6 +81,7 @@ export class EpsilonCounts {
     ctx.fillStyle = ACCENT;
     ctx.arc(x, bbox.top + bbox.height, 5 * ratio, 0, 2 * Math.PI);
     ctx.fill();
+    choices.forEach((choice, row) => drawName(plot, choice, place(choice.epsilon), rowOf(row)));
     ctx.restore();
   }
 }

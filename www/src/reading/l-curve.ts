@@ -5,6 +5,9 @@ import { along, dot, drawName, inRows, listen, powerAxis, REACH, roundEpsilon, R
 import type { EpsilonPlotEvents, EpsilonState } from './marks';
 import { ACCENT, INK, plotIn } from './plot';
 
+/** Shares of the range beside the curve, and above it, where the names are. */
+const ROOM = 0.06;
+const NAMES = 0.36;
 /** Places from each ε of the curve to the next, for pointing. */
 const FINE = 8;
 /** Pixels around the curve in which it is pointed at. */
@@ -62,7 +65,13 @@ export class LCurve {
       }
     });
     if (this.places.length > 0) {
-      this.ends = { x: reach(this.places.map(({ x }) => x)), y: reach(this.places.map(({ y }) => y)) };
+      this.ends = {
+        x: reach(this.places.map(({ x }) => x)),
+        y: reach(
+          this.places.map(({ y }) => y),
+          NAMES,
+        ),
+      };
     }
     this.plot.setData([this.ends.x, [null, null]]);
   }
@@ -116,15 +125,15 @@ export class LCurve {
       if (!place) return;
       const [x, y] = at(place);
       const { color } = RULES[choice.rule];
-      // Above the curve, which bends to the lower left: a thin line leads to the name.
-      const [left, top] = [x + 16 * ratio, bbox.top + (ROW * (row + 0.5) + 2) * ratio];
+      // The curve falls and leaves the upper right to the names: a thin line leads there.
+      const [right, top] = [bbox.left + bbox.width, bbox.top + (ROW * (row + 0.5) + 2) * ratio];
+      const left = right - drawName(plot, choice, right, top);
       ctx.beginPath();
       ctx.moveTo(x, y);
-      ctx.lineTo(left, top);
+      ctx.lineTo(left - 4 * ratio, top);
       ctx.strokeStyle = color;
       ctx.lineWidth = ratio;
       ctx.stroke();
-      drawName(plot, choice, left, top);
     });
     for (const choice of points) {
       const place = this.placeOf(choice.epsilon);
@@ -138,9 +147,9 @@ export class LCurve {
   }
 }
 
-/** With room on all sides. */
-function reach(values: number[]): [number, number] {
+/** With room on all sides. `above`: a share of the range. */
+function reach(values: number[], above = ROOM): [number, number] {
   const [low, high] = [Math.min(...values), Math.max(...values)];
-  const room = 0.06 * (high - low) || 0.5;
-  return [low - room, high + room];
+  const width = high - low || 1;
+  return [low - ROOM * width, high + above * width];
 }

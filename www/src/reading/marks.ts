@@ -36,17 +36,31 @@ const FONT_SIZE = 11.5;
 /** Of logarithms to base ten. */
 export function powerAxis(label: string, more: uPlot.Axis): uPlot.Axis {
   return axis(label, {
-    incrs: [0.1, 0.2, 0.5, 1, 2, 3, 5, 10],
+    splits: (plot, which, low, high) => splitsOf(low, high, roomOf(plot, which) / Number(more.space)),
     values: (_plot, splits) => splits.map(powerOf),
     ...more,
   });
 }
 
-/** 10⁻³, or a plain number between powers. */
+/** Pixels, without those of the other axis. */
+const roomOf = ({ width, height }: uPlot, which: number): number => (which === 0 ? width - 70 : height - 50);
+
+/** Powers of ten, every second or so where there is no room for all; on a short axis twice and five times these, too. */
+function splitsOf(low: number, high: number, most: number): number[] {
+  const step = [1, 2, 3, 5, 10, 20].find((wide) => (high - low) / wide <= most) ?? 50;
+  const first = Math.ceil(low / step) * step;
+  const powers = Array.from({ length: Math.max(0, Math.floor((high - first) / step) + 1) }, (_, k) => first + k * step);
+  if (3 * (high - low) > most) return powers;
+  const steps = [1, 2, 5].map(Math.log10);
+  const all = [Math.floor(low), ...powers].flatMap((power) => steps.map((more) => power + more));
+  return [...new Set(all)].filter((exponent) => exponent >= low && exponent <= high);
+}
+
+/** 10⁻³, or a plain number near to 1. */
 function powerOf(exponent: number): string {
   const nearest = Math.round(exponent);
-  if (Math.abs(exponent - nearest) > 1e-9) return short(Number((10 ** exponent).toPrecision(2)));
-  if (nearest >= 0 && nearest <= 2) return String(10 ** nearest);
+  const isPower = Math.abs(exponent - nearest) < 1e-9;
+  if (!isPower || Math.abs(nearest) <= 2) return short(Number((10 ** exponent).toPrecision(2)));
   return `10${[...String(nearest)].map((sign) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(sign)] ?? '⁻').join('')}`;
 }
 
@@ -73,13 +87,14 @@ export function along(curve: EpsilonCurve, column: Float64Array, epsilon: number
 export const inRows = (choices: readonly ChosenEpsilon[], placeOf: (epsilon: number) => number): ChosenEpsilon[] =>
   [...choices].sort((a, b) => placeOf(a.epsilon) - placeOf(b.epsilon));
 
-/** Beside x, on the side that has more room. */
-export function drawName(plot: uPlot, { rule }: ChosenEpsilon, x: number, y: number): void {
+/** Beside x, to the right if there is room. Returns how long it is. */
+export function drawName(plot: uPlot, { rule }: ChosenEpsilon, x: number, y: number): number {
   const { ctx, bbox } = plot;
   const ratio = uPlot.pxRatio;
   const { name, color } = RULES[rule];
   ctx.font = `${FONT_SIZE * ratio}px ${FAMILY}`;
-  const isLeft = x + ctx.measureText(name).width + 6 * ratio > bbox.left + bbox.width;
+  const { width } = ctx.measureText(name);
+  const isLeft = x + width + 6 * ratio > bbox.left + bbox.width;
   ctx.textAlign = isLeft ? 'right' : 'left';
   ctx.textBaseline = 'middle';
   ctx.lineWidth = 3 * ratio;
@@ -88,6 +103,7 @@ export function drawName(plot: uPlot, { rule }: ChosenEpsilon, x: number, y: num
   ctx.strokeText(name, at, y);
   ctx.fillStyle = color;
   ctx.fillText(name, at, y);
+  return width + 5 * ratio;
 }
 
 export function dot(plot: uPlot, x: number, y: number, color: string, radius: number, filled: boolean): void {

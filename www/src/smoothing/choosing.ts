@@ -1,10 +1,10 @@
 /** The user's side of choosing ε: both plots along ε, which point at the same, and the rules. */
 import type { ChosenEpsilon, EpsilonRule } from 'morse-smooth';
-import { clamp, element, input, select, short, whole } from '../dom';
+import { about, clamp, element, input, select, short, whole } from '../dom';
 import type { EpsilonCurve, Part } from '../protocol';
 import { EpsilonCounts } from '../reading/epsilon-counts';
 import { LCurve } from '../reading/l-curve';
-import { along } from '../reading/marks';
+import { along, RULES } from '../reading/marks';
 import type { RuleName } from '../reading/marks';
 
 const COUNT_RANGE = [1, 1e7] as const;
@@ -24,6 +24,7 @@ export class Choosing {
   private readonly state = element('#family-state', HTMLElement);
   private readonly normsText = element('#norms-values', HTMLElement);
   private readonly countsText = element('#epsilon-counts-values', HTMLElement);
+  private readonly choicesText = element('#choices-text', HTMLElement);
   private readonly rule = select('epsilon-rule');
   private readonly most = input('most-points');
   private readonly button = element('#choose', HTMLButtonElement);
@@ -79,8 +80,7 @@ export class Choosing {
   setFamily({ state, why, error }: Extract<Part, { kind: 'family' }>): void {
     if (state === 'none' || state === 'coming') return this.clear(state === 'none' ? why : '');
     this.setState(state, '');
-    const about = `error ${error < 1e-9 ? 'below 1e−9' : `about ${short(Number(error.toPrecision(1)))}`}`;
-    this.state.textContent = state === 'growing' ? `${about}, refining…` : about;
+    this.state.textContent = `error ${about(error)}${state === 'growing' ? ', refining…' : ''}`;
   }
 
   setCurve(curve: EpsilonCurve | null): void {
@@ -125,13 +125,17 @@ export class Choosing {
   }
 
   private redraw(): void {
-    const { epsilon, hovered, chosen } = this;
-    // Rules that are marked anyway come to the same again.
-    const others = this.choices.filter(({ rule }) => rule !== chosen?.rule);
-    const state = { epsilon, hovered, choices: chosen ? [...others, chosen] : others };
+    const { epsilon, hovered } = this;
+    const state = { epsilon, hovered, choices: this.marked };
     this.lCurve.setState(state);
     this.counts.setState(state);
     this.describe();
+  }
+
+  private get marked(): readonly ChosenEpsilon[] {
+    const { chosen } = this;
+    // Rules that are marked anyway come to the same again.
+    return chosen ? [chosen, ...this.choices.filter(({ rule }) => rule !== chosen.rule)] : this.choices;
   }
 
   private describe(): void {
@@ -144,13 +148,18 @@ export class Choosing {
     this.reason.hidden = !isChosen;
     if (!curve) {
       this.normsText.textContent = this.countsText.textContent = '–';
+      this.choicesText.textContent = '';
       return;
     }
     const of = (column: Float64Array): number => along(curve, column, epsilon);
     const norms = `${at}‖x − f‖ = ${short(of(curve.distances))}, ‖Lx‖ = ${short(of(curve.roughness))}`;
-    const meant = [chosen, ...this.choices].find((choice) => choice && isSame(choice.epsilon, epsilon));
-    this.normsText.textContent = this.normsText.title = meant ? meant.reason : norms;
+    this.normsText.textContent = this.normsText.title = norms;
     this.countsText.replaceChildren(at, ...countsAt(curve, epsilon));
+    const { marked } = this;
+    const meant = marked.find((choice) => isSame(choice.epsilon, epsilon));
+    this.choicesText.textContent = this.choicesText.title = meant
+      ? meant.reason
+      : `Marked: ${marked.map(({ rule, epsilon: at }) => `${RULES[rule].name} ε\u00a0=\u00a0${short(at)}`).join(', ')}.`;
   }
 }
 
