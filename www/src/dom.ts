@@ -43,3 +43,14 @@ export function whole(value: number): string {
 export function duration(milliseconds: number): string {
   return milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
 }
+
+/** Gives the user a file. */
+export function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+  const anchor = document.createElement('a');
+  anchor.href = address;
+  anchor.download = name;
+  anchor.click();
+  // The browser has taken its own hold of the data by the next turn of the event loop.
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}

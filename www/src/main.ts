@@ -3,7 +3,7 @@ import type { SolidSize } from 'morse-smooth/snapshot';
 import { Client } from './client';
 import { Colors } from './colors';
 import { Controls } from './controls';
-import { about, element, input } from './dom';
+import { about, download, element, input } from './dom';
 import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
@@ -19,7 +19,7 @@ import { Constraining } from './smoothing/constraining';
 import { MovingEpsilon } from './smoothing/epsilon';
 import { ReportPanel } from './smoothing/report';
 import { INITIAL_SMOOTHING } from './smoothing/settings';
-import { Status } from './status';
+import { describe, Status } from './status';
 import { makeTabs } from './tabs';
 import { link } from './viewer';
 
@@ -190,24 +190,6 @@ function eachViewer(use: (viewer: NonNullable<Panel['viewer']>) => void): void {
 
 // ---------------------------------------------------------------- what the worker sends
 
-function describe(request: Request): string {
-  switch (request.kind) {
-    case 'open':
-      return `Opening ${request.file.name}…`;
-    case 'addField':
-      return `Reading ${request.file.name}…`;
-    case 'update':
-    case 'preview':
-      return 'Working…';
-    case 'choose':
-      return 'Choosing ε…';
-    case 'save':
-      return 'Writing…';
-    case 'picture':
-      return 'Drawing…';
-  }
-}
-
 function show(part: Part): void {
   switch (part.kind) {
     case 'mesh':
@@ -309,16 +291,6 @@ function clearAfter(text: string): void {
 /** Names what is open; also puts the list back when something else could not be opened. */
 function showSource(): void {
   if (source) controls.showSource(source.example?.id ?? null, source.file.name);
-}
-
-function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
-  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
-  const anchor = document.createElement('a');
-  anchor.href = address;
-  anchor.download = name;
-  anchor.click();
-  // The browser has taken its own hold of the data by the next turn of the event loop.
-  setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
 // ---------------------------------------------------------------- what the user asks for

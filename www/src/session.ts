@@ -5,7 +5,6 @@
  * that fails sends nothing, so that the page goes on with what it had.
  */
 import type { PersistencePairs, TriMesh } from 'morse-smooth';
-import { writeMesh } from 'morse-smooth/files';
 import type { MeshFile } from 'morse-smooth/files';
 import { Scene } from 'morse-smooth/snapshot';
 import type { Solids } from 'morse-smooth/snapshot';
@@ -18,6 +17,7 @@ import type { Field } from './gaps';
 import { meanEdgeOf, rangeOf } from './measures';
 import type { Coloring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
+import { fileOf, plainName } from './saving';
 import { Families, whyNoFamily } from './smoothing/family';
 import { Methods } from './smoothing/methods';
 import { isQuick, quickPart } from './smoothing/preview';
@@ -139,17 +139,8 @@ export class Session {
     const label = this.labelOf(settings.field);
     const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!.values, [`${label}_${suffix}`]: smoothed };
-    const { positions, triangles } = this;
-    const bytes = writeMesh(
-      { positions, triangles },
-      {
-        format: 'ply',
-        fields: plainNames(fields),
-        binary: true,
-        missing: 'omit',
-      },
-    );
-    send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
+    const bytes = fileOf(this.positions, this.triangles, fields);
+    send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes });
   }
 
   /** What the page shows, as a picture. */
@@ -285,11 +276,11 @@ export class Session {
     if (whole || isQuick(this.mesh)) return this.showAfter(values, settings, `preview ${smoothingKey(settings)}`, send);
     this.forgetShown();
     const { coloring } = settings;
-    const before = this.fields.get(settings.field)!.known;
+    const before = this.fields.get(settings.field)!;
     this.corners ??= this.scene.surface().vertices;
-    send(quickPart(this.mesh, values, this.corners, rangeOf(before), settings));
+    send(quickPart(this.mesh, values, this.corners, before, settings));
     if (isByBasins(coloring)) send(this.basins('after', values, coloring, 0).part);
-    if (coloring === 'difference') send(differencePart(this.scene, before, values));
+    if (coloring === 'difference') send(differencePart(this.scene, before.known, values));
   }
 
   /** After a preview that came to nothing the page gets back what it had. */
@@ -427,10 +418,3 @@ function linesKey(field: string, { levels, levelPlaces, persistence, overrides }
     ? `${field} ${levels}`
     : `${field} ${levels} ${persistence} ${JSON.stringify(overrides)}`;
 }
-
-/** PLY property names are single words. */
-function plainNames(fields: Record<string, Float64Array>): Record<string, Float64Array> {
-  return Object.fromEntries(Object.entries(fields).map(([name, values]) => [plainName(name), values]));
-}
-
-const plainName = (name: string): string => name.replace(/[^\w.-]+/g, '_');

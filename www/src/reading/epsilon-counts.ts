@@ -1,7 +1,7 @@
 /** The numbers of critical points along ε, with the ε that is set, the one that is pointed at, and those that rules chose. */
 import uPlot from 'uplot';
 import type { EpsilonCurve } from '../protocol';
-import { drawName, inRows, listen, powerAxis, REACH, roundEpsilon, ROW, RULES, upright } from './marks';
+import { drawName, inRows, listen, powerAxis, redraw, REACH, roundEpsilon, ROW, RULES, upright } from './marks';
 import type { EpsilonPlotEvents, EpsilonState } from './marks';
 import { ACCENT, COUNT_SCALE, countAxis, MAXIMUM, MINIMUM, plotIn, SADDLE, SOFT } from './plot';
 
@@ -51,7 +51,7 @@ export class EpsilonCounts {
 
   setState(state: EpsilonState): void {
     this.state = state;
-    this.plot.redraw(false, false);
+    redraw(this.plot);
   }
 
   private epsilonAt(x: number): number {

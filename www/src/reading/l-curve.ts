@@ -1,7 +1,7 @@
 /** The L-curve: how far the smoothed field is from the given one against how rough it is left, for every ε. Only axes are uPlot's. */
 import uPlot from 'uplot';
 import type { EpsilonCurve } from '../protocol';
-import { along, dot, drawName, inRows, listen, powerAxis, REACH, roundEpsilon, ROW, RULES } from './marks';
+import { along, dot, drawName, inRows, listen, powerAxis, redraw, REACH, roundEpsilon, ROW, RULES } from './marks';
 import type { EpsilonPlotEvents, EpsilonState } from './marks';
 import { ACCENT, INK, plotIn } from './plot';
 
@@ -78,7 +78,7 @@ export class LCurve {
 
   setState(state: EpsilonState): void {
     this.state = state;
-    this.plot.redraw(false, false);
+    redraw(this.plot);
   }
 
   private placeOf(epsilon: number): Place | null {

@@ -131,6 +131,11 @@ export function upright(plot: uPlot, x: number, top: number, color: string, widt
   ctx.setLineDash([]);
 }
 
+/** Only where it is seen: it is drawn again when its tab is opened. */
+export function redraw(plot: uPlot): void {
+  if (!plot.root.closest('[hidden]')) plot.redraw(false, false);
+}
+
 /** Calls back for what the pointer does over a plot. `find`: the ε at a place in pixels; null where there is none. */
 export function listen(plot: uPlot, find: (x: number, y: number) => number | null, events: EpsilonPlotEvents): void {
   const { over } = plot;

@@ -21,11 +21,7 @@ export class MovingEpsilon {
   private isHeld = false;
 
   constructor(private readonly events: MovingEvents) {
-    for (const end of ['pointerup', 'pointercancel'] as const)
-      window.addEventListener(end, () => {
-        this.isHeld = false;
-        if (this.isMoving) events.rest();
-      });
+    for (const end of ['pointerup', 'pointercancel'] as const) window.addEventListener(end, () => this.letGo());
   }
 
   /** Between the first change and the request for the exact field. */
@@ -38,6 +34,9 @@ export class MovingEpsilon {
     handle.addEventListener('pointerdown', ({ button }) => {
       this.isHeld = button === 0;
     });
+    handle.addEventListener('change', () => {
+      if (this.isHeld) this.letGo();
+    });
   }
 
   moved(): void {
@@ -49,6 +48,11 @@ export class MovingEpsilon {
       if (this.isHeld) this.events.preview(true);
       else this.events.rest();
     }, REST);
+  }
+
+  private letGo(): void {
+    this.isHeld = false;
+    if (this.isMoving) this.events.rest();
   }
 
   /** What is asked for now has the latest ε with it. */

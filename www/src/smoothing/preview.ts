@@ -1,6 +1,8 @@
 /** The worker's side of previews, which show another ε while the slider moves: what can be had in a frame's time. No state. */
 import type { TriMesh } from 'morse-smooth';
 import { omitting } from '../gaps';
+import type { Field } from '../gaps';
+import { rangeOf } from '../measures';
 import type { Part, Settings } from '../protocol';
 
 /** Up to so many vertices, a frame's time is enough for level sets and all the rest, too. */
@@ -8,18 +10,22 @@ const QUICK_VERTICES = 20_000;
 
 export const isQuick = ({ vertexCount }: TriMesh): boolean => vertexCount <= QUICK_VERTICES;
 
-/** Colors and critical points alone. `corners`: the vertex of each corner of the surface. `range`: of the colors. */
+/** Colors and critical points alone. `corners`: the vertex of each corner of the surface. `before`: the field that is smoothed. */
 export function quickPart(
   mesh: TriMesh,
   values: Float64Array,
   corners: Uint32Array,
-  range: [number, number],
+  before: Field,
   { delta, link }: Settings,
 ): Part {
-  const { vertices, kinds, counts } = mesh.criticalPoints(values, { delta, link, ...omitting(values) });
+  const { vertices, kinds, counts } = mesh.criticalPoints(values, {
+    delta,
+    link,
+    ...(before.gaps > 0 ? omitting(values) : {}),
+  });
   return {
     kind: 'preview',
-    shades: shadesOf(values, corners, range),
+    shades: shadesOf(values, corners, rangeOf(before.known)),
     vertices: new Uint32Array(vertices),
     kinds: new Int8Array(kinds),
     counts,
