@@ -28,7 +28,6 @@ export class Choosing {
   private readonly rule = select('epsilon-rule');
   private readonly most = input('most-points');
   private readonly button = element('#choose', HTMLButtonElement);
-  private readonly reason = element('#epsilon-reason', HTMLElement);
   private readonly lCurve: LCurve;
   private readonly counts: EpsilonCounts;
 
@@ -54,6 +53,7 @@ export class Choosing {
     });
     this.rule.addEventListener('change', () => this.showRule());
     this.button.addEventListener('click', () => events.choose(this.wish));
+    element('#open-choosing', HTMLButtonElement).addEventListener('click', () => this.open());
     this.showRule();
     this.clear('');
   }
@@ -109,8 +109,15 @@ export class Choosing {
     this.button.disabled = why !== '';
   }
 
+  /** Brings the plots into sight, from beside the slider. */
+  private open(): void {
+    element('#tab-choosing', HTMLButtonElement).click();
+    this.panel.scrollIntoView({ block: 'nearest' });
+    if (this.none.hidden) this.rule.focus({ preventScroll: true });
+  }
+
   private showRule(): void {
-    element('#most', HTMLElement).hidden = this.rule.value !== 'atMostCriticalPoints';
+    this.most.hidden = this.rule.value !== 'atMostCriticalPoints';
   }
 
   private get wanted(): number {
@@ -142,10 +149,6 @@ export class Choosing {
     const { curve, hovered } = this;
     const epsilon = hovered ?? this.epsilon;
     const at = `ε = ${short(epsilon)}: `;
-    const { chosen } = this;
-    const isChosen = chosen !== null && isSame(chosen.epsilon, this.epsilon);
-    this.reason.replaceChildren(...(isChosen ? sentences(chosen) : []));
-    this.reason.hidden = !isChosen;
     if (!curve) {
       this.normsText.textContent = this.countsText.textContent = '–';
       this.choicesText.textContent = '';
@@ -158,7 +161,7 @@ export class Choosing {
     const { marked } = this;
     const meant = marked.find((choice) => isSame(choice.epsilon, epsilon));
     this.choicesText.textContent = this.choicesText.title = meant
-      ? meant.reason
+      ? sentences(meant)
       : `Marked: ${marked.map(({ rule, epsilon: at }) => `${RULES[rule].name} ε\u00a0=\u00a0${short(at)}`).join(', ')}.`;
   }
 }
@@ -166,11 +169,9 @@ export class Choosing {
 const isSame = (a: number, b: number): boolean => Math.abs(a / b - 1) < SAME;
 
 /** Why, and what would have been next. */
-function sentences({ reason, runnersUp, noise }: ChosenEpsilon): (string | HTMLElement)[] {
-  const more: string[] = [];
-  if (runnersUp.length > 0) more.push(`Next best: ε = ${runnersUp.map(short).join(', ')}.`);
-  if (noise) more.push(`Confidence in the level of the noise: ${noise.confidence}.`);
-  return [[reason, ...more].join(' ')];
+function sentences({ reason, runnersUp, noise }: ChosenEpsilon): string {
+  const next = runnersUp.length > 0 ? ` Next best: ε = ${runnersUp.map(short).join(', ')}.` : '';
+  return `${reason}${next}${noise ? ` Confidence: ${noise.confidence}.` : ''}`;
 }
 
 /** Of the nearest ε at which they were counted. */
