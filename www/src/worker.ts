@@ -15,7 +15,7 @@ interface WorkerScope {
 const scope = globalThis as unknown as WorkerScope;
 
 /** Milliseconds without a request, after which something else may be done; more while a slider moves. */
-const QUIET = 30;
+const QUIET = 250;
 const QUIET_AFTER_PREVIEW = 400;
 
 let session: Session | null = null;
