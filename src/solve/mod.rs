@@ -2,6 +2,7 @@
 
 mod direct;
 mod iterative;
+mod lanes;
 mod matrix;
 mod ordering;
 

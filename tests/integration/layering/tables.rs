@@ -48,7 +48,7 @@ pub(crate) const RULES: Rules = Rules {
         ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
-        ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
+        ("solve", &[&["matrix", "lanes"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
             "solve/ordering",
             &[
@@ -67,7 +67,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["tree"],
                 &["supernodes"],
                 &["symbolic"],
-                &["scalar", "lanes"],
+                &["scalar"],
                 &["lane_block"],
                 &["numbers"],
                 &["front"],
