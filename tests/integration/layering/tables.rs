@@ -48,7 +48,7 @@ pub(crate) const RULES: Rules = Rules {
         ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
-        ("solve", &[&["matrix", "lanes"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
+        ("solve", &[&["matrix", "lanes"], &["vectors", "ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
             "solve/ordering",
             &[
@@ -129,6 +129,7 @@ pub(crate) const RULES: Rules = Rules {
             "smooth/family",
             &[
                 &["small", "traces"],
+                &["block", "eigen"],
                 &["pencil"],
                 &["space"],
                 &["estimate", "reach"],
