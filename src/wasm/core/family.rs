@@ -38,7 +38,8 @@ impl RawSmoother {
             let epsilons = epsilons.map(|epsilons| floats(&epsilons)).transpose()?;
             let asked = SweepOptions { epsilons: epsilons.as_deref(), counts, channel };
             choice.options().check()?;
-            asked.check(choice.options().range, choice.channels())?;
+            // That there are no channels at all is told where the values are read.
+            asked.check(choice.options().range, choice.channels().max(1))?;
         }
         let values = floats(values)?;
         let family = watching.run(|watch| self.smoother().family(&values, &choice.options(), watch));
