@@ -21,7 +21,7 @@ const TABLE = {
     without: ['io', 'load.rs', 'render'],
     bundles: { 'core.js': 'core.js', 'node.cjs': 'node.js' },
     copies: ['index.js', 'inline.js', 'inline.d.ts', 'node.mjs'],
-    types: { index: ['package', 'mesh', 'field', 'smoothing', 'family'] },
+    types: { index: ['package', 'mesh', 'field', 'smoothing', 'prescribe', 'family'] },
     exports: {
       '.': exported('index', 'node'),
       './inline': { types: './dist/inline.d.ts', default: './dist/inline.js' },

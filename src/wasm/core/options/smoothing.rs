@@ -4,6 +4,7 @@ use js_sys::Float64Array;
 
 use super::Constraining;
 use super::epsilon::epsilon;
+use super::prescribe::Prescribing;
 use crate::field::Missing;
 use crate::smooth::{
     BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
@@ -31,9 +32,12 @@ pub(in crate::wasm::core) enum ShortMethod {
     Tikhonov,
     Interpolate,
     LeastSquares,
+    Prescribe,
 }
 
-named! { ShortMethod { Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares" } }
+named! { ShortMethod {
+    Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares", Prescribe = "prescribe",
+} }
 
 impl ShortMethod {
     pub(in crate::wasm::core) fn method(self) -> MethodName {
@@ -41,6 +45,7 @@ impl ShortMethod {
             Self::Tikhonov => MethodName::Tikhonov,
             Self::Interpolate => MethodName::Interpolate,
             Self::LeastSquares => MethodName::LeastSquares,
+            Self::Prescribe => MethodName::Prescribe,
         }
     }
 }
@@ -52,6 +57,7 @@ pub(in crate::wasm::core) enum Smoothing {
     LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>, Option<EpsilonRule>),
     LowPass(LowPassOptions),
     Bilateral(BilateralOptions),
+    Prescribe(Box<Prescribing>),
 }
 
 impl Smoothing {
@@ -65,7 +71,7 @@ impl Smoothing {
         Self::read_with(record, method, operator, true)
     }
 
-    fn read_with(record: &Record, method: MethodName, operator: Operator, has_default: bool) -> Self {
+    pub(super) fn read_with(record: &Record, method: MethodName, operator: Operator, has_default: bool) -> Self {
         let channels = record.integer("channels").map_or(1, |channels| channels as usize);
         let missing = record.choice("missing").unwrap_or_default();
         match method {
@@ -86,11 +92,15 @@ impl Smoothing {
             }
             MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
             MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
+            MethodName::Prescribe => Self::Prescribe(Box::new(Prescribing::read(record, operator, has_default))),
         }
     }
 
     /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
     pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
+        if let Self::Prescribe(prescribing) = self {
+            return Self::Prescribe(Box::new(prescribing.with_weights(record)));
+        }
         if let Self::LeastSquares(_, weights, ..) = &mut self {
             let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
             *weights = array.and_then(|array| record.taken(floats(&array)));
@@ -102,6 +112,7 @@ impl Smoothing {
     pub(in crate::wasm::core) fn rule(&self) -> Option<EpsilonRule> {
         match self {
             Self::Tikhonov(_, rule) | Self::LeastSquares(.., rule) => *rule,
+            Self::Prescribe(prescribing) => prescribing.rule(),
             _ => None,
         }
     }
@@ -119,6 +130,7 @@ impl Smoothing {
             }
             Self::LowPass(options) => Method::LowPass(*options),
             Self::Bilateral(options) => Method::Bilateral(*options),
+            Self::Prescribe(prescribing) => prescribing.method(),
         }
     }
 }
