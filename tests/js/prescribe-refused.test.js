@@ -241,6 +241,19 @@ describe('progress', () => {
     expect(same(smoother.tikhonov(f, { epsilon }).values, smoothed.values)).toBe(true);
   });
 
+  it.each(Object.keys(calls))('the first call "%s", stopped, leaves the next one right', (name) => {
+    const mesh = make(shape);
+    const expected = calls[name](new Smoother(mesh));
+    let times = 0;
+    calls[name](new Smoother(mesh), { onProgress: () => void times++ });
+    for (let time = 0; time < times; time += Math.ceil(times / 8)) {
+      const smoother = new Smoother(mesh);
+      let count = 0;
+      expectError(() => calls[name](smoother, { onProgress: () => count++ < time }), 'Cancelled');
+      expect(same(calls[name](smoother), expected)).toBe(true);
+    }
+  });
+
   it('is that of the smoother where the call names none', () => {
     let told = 0;
     const smoother = new Smoother(make(shape), { onProgress: () => void told++ });
