@@ -6,9 +6,7 @@ use wasm_bindgen::{JsCast, JsValue};
 use super::{Smoothing, threshold};
 use crate::error::{OptionError, Result};
 use crate::field::Threshold;
-use crate::smooth::{
-    EpsilonRule, Extrema, Functional, Method, MethodName, Operator, PersistenceOf, PrescribeOptions,
-};
+use crate::smooth::{EpsilonRule, Extrema, Functional, Method, MethodName, Operator, PersistenceOf, PrescribeOptions};
 use crate::support::named::named;
 use crate::wasm::shared::arrays::ids;
 use crate::wasm::shared::record::{Record, read};
