@@ -119,7 +119,8 @@ describe('options', () => {
   it('that nothing has are told, and so is what is no array', () => {
     unknown({ extremes: [1] }, 'extremes');
     unknown({ threshold: 0.1 }, 'threshold');
-    unknown({ energy: 'harmonic' }, 'energy');
+    const smoother = new Smoother(make(shape));
+    expectError(() => smoother.prescribe(f, { epsilon, energy: 'harmonic' }), 'UnknownOption', { option: 'energy' });
     unknown({ extrema: { ...persistence, stars: true } }, 'extrema.stars');
     unknown({ extrema: { minima: [1], maxima: [2], of: 'input' } }, 'extrema.of');
     for (const extrema of ['all', 3, true, new Map()])
