@@ -44,6 +44,7 @@ mod ordering;
 mod persistence;
 #[cfg(feature = "render")]
 mod pictures;
+mod prescribe;
 mod readme;
 mod refusals;
 mod reuse;

@@ -15,8 +15,8 @@ use crate::support::watch::{Phase, Watch};
 const MOST_ITERATIONS: usize = 60;
 /// So many are usual; progress is told as if there were so many.
 const USUAL_ITERATIONS: usize = 9;
-/// The duality gap that is left, relative to the energy: the field is then within a few millionths of the optimum.
-const GAP: f64 = 1e-4;
+/// The duality gap that is left, relative to the energy.
+const GAP: f64 = 1e-5;
 /// What the steps may lack of the slacks, relative to the least margin, and the gradient of what balances it, relative to it.
 const PRIMAL: f64 = 0.1;
 const DUAL: f64 = 1e-6;

@@ -282,7 +282,7 @@ impl Search<'_, '_> {
             }
             match self.candidate(representative, watch) {
                 Ok(candidate) if best.as_ref().is_none_or(|best| candidate.energy < best.energy) => {
-                    best = Some(candidate)
+                    best = Some(candidate);
                 }
                 Ok(_) => {}
                 Err(crate::error::Error::Smooth(error @ SmoothError::Infeasible { .. })) => {
@@ -310,19 +310,11 @@ impl Search<'_, '_> {
     fn candidate(&mut self, representative: Representative, watch: &Watch<'_>) -> Result<Candidate> {
         let order = VertexOrder::of_checked(&representative.heights);
         let extrema = &representative.extrema;
-        let mut steps = steps::steps(self.mesh.connectivity(), order, extrema, self.margin)?;
+        let mut steps = steps::steps(self.mesh.connectivity(), order, extrema, self.margin, watch)?;
         if let Some(prominence) = self.prominence {
-            let (connectivity, unavoidable) = (self.mesh.connectivity(), &representative.unavoidable);
-            prominence::raise(
-                &mut steps,
-                connectivity,
-                order,
-                extrema,
-                unavoidable,
-                self.smooth,
-                prominence,
-                self.margin,
-            )?;
+            let unavoidable = &representative.unavoidable;
+            let wish = prominence::Wish { prominence, margin: self.margin, smooth: self.smooth, unavoidable };
+            prominence::raise(&mut steps, self.mesh.connectivity(), order, &wish, watch)?;
         }
         if self.range == ResultRange::Input {
             let inside = INSIDE * self.margin;
@@ -334,7 +326,7 @@ impl Search<'_, '_> {
                 let place = self.kept.binary_search_by_key(&v, |&(v, _)| v);
                 place.ok().map(|place| self.kept[place].1)
             };
-            steps::check(&steps, order, &kept)?;
+            steps::check(&steps, order, &kept, watch)?;
         }
         self.to_variables(&mut steps);
         let steps = Steps::new(steps, &self.quadratic)?;

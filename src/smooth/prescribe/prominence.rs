@@ -5,38 +5,50 @@
 //! above the minimum as is wished for: along the way by which each is reached, the rises add up to it. They are shared out as the
 //! smooth field rises, where it does, and else evenly. Maxima are minima upside down.
 
-use super::extrema::Chosen;
-use super::ranking::around;
+use super::ranking::{around, ascending};
 use super::steps::Step;
 use crate::error::Result;
 use crate::field::VertexOrder;
-use crate::mesh::{Connectivity, LinkKind};
+use crate::mesh::Connectivity;
 use crate::support::memory;
 use crate::support::union_find::UnionFind;
+use crate::support::watch::Watch;
 
 const NONE: u32 = u32::MAX;
 
 /// What steps may lack of their margin, so much more is asked for.
 const SPARE: f64 = 0.2;
 
-/// Asks for larger steps, and more of them, so that every chosen extremum is so prominent. `unavoidable` ones are not. `smooth`: the
-/// normalised smooth field.
+/// The work with a vertex whose basin is found, or whose rise is shared out.
+const BASINS: u64 = 150;
+
+/// What is wished for.
+pub(super) struct Wish<'a> {
+    /// Relative to the range of the input.
+    pub(super) prominence: f64,
+    pub(super) margin: f64,
+    /// The normalised smooth field.
+    pub(super) smooth: &'a [f64],
+    /// Extrema that were not chosen, ascending: they need not be prominent.
+    pub(super) unavoidable: &'a [u32],
+}
+
+/// Asks for larger steps, and more of them, so that every chosen extremum is as prominent as is wished for.
 pub(super) fn raise(
     steps: &mut Vec<Step>,
     connectivity: &Connectivity,
     order: VertexOrder<'_>,
-    extrema: &Chosen,
-    unavoidable: &[u32],
-    smooth: &[f64],
-    prominence: f64,
-    margin: f64,
+    wish: &Wish<'_>,
+    watch: &Watch<'_>,
 ) -> Result<()> {
     let n = connectivity.vertex_count();
     memory::ensure(64 * n as u64)?;
     let mut larger = Vec::new();
-    for (extrema, is_upward) in [(&extrema.minima, true), (&extrema.maxima, false)] {
-        let basins = Basins::new(connectivity, order, extrema, is_upward);
-        for (from, to, least) in basins.rises(connectivity, unavoidable, smooth, prominence, margin) {
+    for is_upward in [true, false] {
+        watch.tick(BASINS * n as u64)?;
+        let basins = Basins::new(connectivity, order, is_upward, watch)?;
+        watch.tick(BASINS * n as u64)?;
+        for (from, to, least) in basins.rises(connectivity, wish) {
             let (from, to) = if is_upward { (from, to) } else { (to, from) };
             larger.push(Step { from, to, least });
         }
@@ -59,12 +71,9 @@ struct Basins {
 }
 
 impl Basins {
-    fn new(connectivity: &Connectivity, order: VertexOrder<'_>, minima: &[u32], is_upward: bool) -> Self {
+    fn new(connectivity: &Connectivity, order: VertexOrder<'_>, is_upward: bool, watch: &Watch<'_>) -> Result<Self> {
         let n = connectivity.vertex_count();
-        let kinds = connectivity.link_kinds();
-        let mut ascending: Vec<u32> = (0..n as u32).filter(|&v| kinds[v as usize] != LinkKind::Isolated).collect();
-        let values = order.values();
-        ascending.sort_unstable_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b)));
+        let mut ascending = ascending(connectivity, order.values(), watch)?;
         if !is_upward {
             ascending.reverse();
         }
@@ -117,19 +126,12 @@ impl Basins {
                 minimum != NONE && end[minimum as usize] != NONE && rank[v as usize] < end[minimum as usize];
             owner[v as usize] = if is_inside { minimum } else { NONE };
         }
-        debug_assert!(minima.iter().all(|&v| parent[v as usize] == NONE));
-        Self { is_upward, ascending, parent, owner }
+        Ok(Self { is_upward, ascending, parent, owner })
     }
 
     /// Rises between neighbours: from, to, and how much.
-    fn rises(
-        &self,
-        connectivity: &Connectivity,
-        unavoidable: &[u32],
-        smooth: &[f64],
-        prominence: f64,
-        margin: f64,
-    ) -> Vec<(u32, u32, f64)> {
+    fn rises(&self, connectivity: &Connectivity, wish: &Wish<'_>) -> Vec<(u32, u32, f64)> {
+        let Wish { prominence, margin, smooth, unavoidable } = *wish;
         let n = connectivity.vertex_count();
         let height = |v: u32| if self.is_upward { smooth[v as usize] } else { -smooth[v as usize] };
         // How many steps lead to a vertex of a basin, and how high the smooth field comes on the way above the minimum.

@@ -10,6 +10,7 @@ use std::collections::BinaryHeap;
 
 use super::extrema::Chosen;
 use crate::error::{Cancelled, Result};
+use crate::field::sort_by_value;
 use crate::mesh::{Connectivity, LinkKind};
 use crate::support::memory;
 use crate::support::watch::Watch;
@@ -97,11 +98,14 @@ fn flooded(
 }
 
 /// The vertices of triangles by ascending (value, id).
-pub(super) fn ascending(connectivity: &Connectivity, values: &[f64]) -> Vec<u32> {
+///
+/// # Errors
+/// `Cancelled`, `OutOfMemory`.
+pub(super) fn ascending(connectivity: &Connectivity, values: &[f64], watch: &Watch<'_>) -> Result<Vec<u32>> {
     let kinds = connectivity.link_kinds();
     let mut order: Vec<u32> = (0..values.len() as u32).filter(|&v| kinds[v as usize] != LinkKind::Isolated).collect();
-    order.sort_unstable_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b)));
-    order
+    sort_by_value(&mut order, values, watch)?;
+    Ok(order)
 }
 
 /// The neighbours of a vertex, some of them several times.

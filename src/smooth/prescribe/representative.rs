@@ -4,7 +4,7 @@ use super::extrema::Chosen;
 use super::ranking::{around, ascending, ranking};
 use crate::error::Result;
 use crate::field::{Keep, ScalarField, VertexOrder, simplify};
-use crate::mesh::{Connectivity, TriMesh};
+use crate::mesh::TriMesh;
 use crate::support::memory;
 use crate::support::watch::Watch;
 
@@ -74,7 +74,8 @@ pub(super) fn representative(mesh: &TriMesh, flooded: Flooded, watch: &Watch<'_>
     let Flooded { values: mut heights, extrema, unavoidable, forced } = flooded;
     // The flooded field is flat where it was flooded, and its order there is any that serves: fields with that order have up to thrice as
     // much energy beyond the smooth one's as those with this ranking. It is for meshes where no ranking is found.
-    if let Some(order) = ranking(mesh.connectivity(), ascending(mesh.connectivity(), &forced), &extrema, watch)? {
+    if let Some(order) = ranking(mesh.connectivity(), ascending(mesh.connectivity(), &forced, watch)?, &extrema, watch)?
+    {
         for (rank, v) in order.into_iter().enumerate() {
             heights[v as usize] = rank as f64;
         }

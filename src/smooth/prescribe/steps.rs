@@ -7,9 +7,14 @@
 use super::extrema::Chosen;
 use super::ranking::around;
 use crate::error::{Result, SmoothError};
-use crate::field::VertexOrder;
+use crate::field::{VertexOrder, sort_by_value};
 use crate::mesh::{Connectivity, LinkKind};
 use crate::support::memory;
+use crate::support::watch::Watch;
+
+/// The work with a vertex whose steps are found, and with a step that is checked.
+const FOUND: u64 = 120;
+const CHECKED: u64 = 150;
 
 /// No vertex: the value 0.
 pub(super) const GROUND: u32 = u32::MAX;
@@ -52,11 +57,13 @@ pub(super) fn steps(
     order: VertexOrder<'_>,
     extrema: &Chosen,
     margin: f64,
+    watch: &Watch<'_>,
 ) -> Result<Vec<Step>> {
     let n = connectivity.vertex_count();
     let Chosen { minima, maxima } = extrema;
     let rings: usize = minima.iter().chain(maxima).map(|&v| 2 * connectivity.star(v).len()).sum();
     memory::ensure((8 * n + size_of::<Step>() * (2 * n + rings)) as u64)?;
+    watch.tick(FOUND * n as u64)?;
     let ends = Ends::new(connectivity, order);
     let mut steps = Vec::with_capacity(2 * n + rings);
     let mut push = |from: u32, to: u32| steps.push(Step { from, to, least: margin });
@@ -85,13 +92,17 @@ pub(super) fn steps(
 ///
 /// # Errors
 /// `Infeasible` with a vertex from which steps lead up to another one whose value is not so much higher.
-pub(super) fn check(steps: &[Step], order: VertexOrder<'_>, fixed: &dyn Fn(u32) -> Option<f64>) -> Result<()> {
+pub(super) fn check(
+    steps: &[Step],
+    order: VertexOrder<'_>,
+    fixed: &dyn Fn(u32) -> Option<f64>,
+    watch: &Watch<'_>,
+) -> Result<()> {
     let n = order.values().len();
     memory::ensure((28 * n + 8 * steps.len()) as u64)?;
+    watch.tick(CHECKED * steps.len() as u64)?;
     let mut ascending: Vec<u32> = (0..n as u32).collect();
-    ascending.sort_unstable_by(|&a, &b| {
-        if order.is_below(a, b) { core::cmp::Ordering::Less } else { core::cmp::Ordering::Greater }
-    });
+    sort_by_value(&mut ascending, order.values(), watch)?;
     let mut rank = vec![0_u32; n];
     for (place, &v) in (0..).zip(&ascending) {
         rank[v as usize] = place;
@@ -105,13 +116,12 @@ pub(super) fn check(steps: &[Step], order: VertexOrder<'_>, fixed: &dyn Fn(u32) 
     let mut next = 0;
     let mut ceilings = Vec::new();
     for place in 0..=n {
-        if let Some(&v) = place.checked_sub(1).and_then(|place| ascending.get(place)) {
-            if let Some(value) = fixed(v) {
-                if value < least[v as usize] {
-                    return Err(SmoothError::Infeasible { from: origin[v as usize], to: v }.into());
-                }
-                (least[v as usize], origin[v as usize]) = (value, v);
+        let vertex = place.checked_sub(1).and_then(|place| ascending.get(place).copied());
+        if let Some((v, value)) = vertex.and_then(|v| Some((v, fixed(v)?))) {
+            if value < least[v as usize] {
+                return Err(SmoothError::Infeasible { from: origin[v as usize], to: v }.into());
             }
+            (least[v as usize], origin[v as usize]) = (value, v);
         }
         while let Some(step) = up.get(next).map(|&k| &steps[k as usize]).filter(|step| key(step) as usize == place) {
             next += 1;

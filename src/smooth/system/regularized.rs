@@ -133,7 +133,7 @@ impl RegularizedSystem {
         };
         let problem = matrices.problem(epsilon);
         let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &[], settings };
-        Ok(routes.square(&task, watch).map_err(|error| on_mesh(&matrices.unknowns, error))?)
+        routes.square(&task, watch).map_err(|error| on_mesh(&matrices.unknowns, error))
     }
 
     /// Solves for every channel of normalised values.
