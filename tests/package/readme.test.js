@@ -91,11 +91,11 @@ it('writes a field that has kept its persistent critical points', () => {
   mesh.free();
 });
 
-it('prescribes the extrema of the geoid', () => {
+it('prescribes the extrema of a terrain', () => {
   const path = join(folder, 'exact.png');
   const lines = run('prescribe.mjs', path).trimEnd().split('\n');
-  expect(lines[0]).toBe('minima 265 → 4, maxima 267 → 3, saddles 5');
-  expect(Number(/^energy: ([\d.]+) % above/.exec(lines[1])[1])).toBeLessThan(1);
+  expect(lines[0]).toBe('minima 570 → 5, maxima 529 → 8, saddles 1091 → 12');
+  expect(Number(/^energy ([\d.]+) % above/.exec(lines[1])[1])).toBeLessThan(1);
   expect(readFileSync(path).equals(readFileSync(join(root, 'docs', 'exact.png')))).toBe(true);
 });
 
