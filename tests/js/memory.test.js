@@ -88,7 +88,6 @@ const calls = {
     smooth(mesh, field, { method: 'interpolate', constraints, energy: 'biharmonic' }),
   leastSquares: (mesh) => smooth(mesh, field, { epsilon: 1, constraints }),
   prescribe: (mesh) => smooth(mesh, field, { method: 'prescribe', epsilon: 0.1 }),
-  'prescribe, preview': (mesh) => smooth(mesh, field, { method: 'prescribe', epsilon: 0.1, preview: true }),
   family: (mesh) =>
     freed(new Smoother(mesh), (smoother) =>
       freed(smoother.family(field, loose), (family) => {
