@@ -10,7 +10,7 @@ import { number, printTable, size as label } from './lib/table.mjs';
 const USAGE = `node benches/prescribe.mjs, or npm run bench -- prescribe, with
   --size 10k,100k    numbers of vertices (default 10k,30k,100k; k and M are understood)
   --set smoothed     of ${Object.keys(SETS).join(', ')} (default all)
-  --rounds 3         calls of each kind that a median is taken of (default 3; 1 from 100k on)
+  --rounds 3         calls of each kind that a median is taken of (default 3)
   --clock cpu        time of the processor instead of the wall's, for a machine that is busy
   --quick            3k vertices: whether all of this works`;
 
@@ -28,7 +28,7 @@ await main(async () => {
     const columns = [];
     for (const set of sets) {
       const measure = async (what, only) => {
-        const parameters = { size, set, clock, only, rounds: only ? 1 : rounds(size) };
+        const parameters = { size, set, clock, only, rounds: only ? 1 : rounds };
         const result = await step(`${set}: ${what}`, () => inChild('prescribe', parameters));
         if (result.failure) say(`  it failed: ${result.failure}`);
         return result;
@@ -102,12 +102,12 @@ function readOptions(parameters) {
     throw new Problem(`${error.message}\n\n${USAGE}`);
   }
   if (values.help) throw new Problem(USAGE);
-  const rounds = values.rounds ? Number(values.rounds) : null;
-  if (rounds !== null && !(rounds >= 1)) throw new Problem(`--rounds ${values.rounds}: a count is expected`);
+  const rounds = values.rounds ? Number(values.rounds) : 3;
+  if (!(rounds >= 1)) throw new Problem(`--rounds ${values.rounds}: a count is expected`);
   return {
     sizes: values.size?.split(',').map(readSize) ?? (values.quick ? [3_000] : [10_000, 30_000, 100_000]),
     sets: oneOf('set', values.set, Object.keys(SETS)),
-    rounds: (size) => rounds ?? (size < 100_000 ? 3 : 1),
+    rounds,
     clock: oneOf('clock', values.clock, ['wall', 'cpu'], ['wall'])[0],
   };
 }
