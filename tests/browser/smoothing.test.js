@@ -194,6 +194,9 @@ describe('at any width', () => {
     await openTorus();
     await page.at('tab-plots').focus();
     await page.page.keyboard.press('ArrowRight');
+    expect(await page.at('tab-choosing').getAttribute('aria-selected')).toBe('true');
+    expect(await page.at('l-curve').isVisible()).toBe(true);
+    await page.page.keyboard.press('ArrowRight');
     expect(await page.at('tab-points').getAttribute('aria-selected')).toBe('true');
     expect(await page.at('points-box').isVisible()).toBe(true);
     expect(await page.at('diagram').isVisible()).toBe(false);
@@ -212,7 +215,7 @@ describe('at any width', () => {
       await page.choose('coloring', 'difference');
       for (const method of ['interpolate', 'lowPass', 'bilateral', 'leastSquares']) {
         await page.choose('method', method);
-        for (const tab of ['tab-points', 'tab-report', 'tab-plots']) {
+        for (const tab of ['tab-choosing', 'tab-points', 'tab-report', 'tab-plots']) {
           await page.at(tab).click();
           expect(await page.overflow(), `${method} ${tab}`).toEqual([]);
         }

@@ -45,6 +45,7 @@ mod persistence;
 #[cfg(feature = "render")]
 mod pictures;
 mod prescribe;
+mod prescribe_data;
 mod readme;
 mod refusals;
 mod reuse;

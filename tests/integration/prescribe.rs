@@ -1,17 +1,18 @@
 //! The smoothest field with prescribed extrema: extrema found by hand, optima found by other algorithms.
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
-use morse_smooth::Error;
 use morse_smooth::field::{Missing, PersistenceDiagram, ScalarField, Threshold};
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::mesh::{LinkKind, TriMesh};
 use morse_smooth::operators::{LaplacianWeights, MassOptions, laplacian, mass};
 use morse_smooth::smooth::{
-    Constraints, Extrema, ExtremumValues, Functional, LeastSquaresOptions, Metric, Operator, PersistenceOf,
+    Constraints, Extrema, ExtremumValues, Functional, LeastSquaresOptions, Method, Metric, Operator, PersistenceOf,
     PrescribeOptions, PrescribeRoute, PrescribedReport, ResultRange, Smoothed, Smoother, SmootherOptions,
     TikhonovOptions,
 };
+use morse_smooth::{Error, Progress, Watch};
 use nalgebra::{DMatrix, DVector};
 
 use crate::support::{random_complex, random_surface, shuffle};
@@ -127,8 +128,8 @@ fn random_extrema_on_random_complexes_are_the_only_ones() {
 /// ½xᵀHx − cᵀx of Tikhonov smoothing with the identity, dense.
 fn dense(mesh: &TriMesh, weights: LaplacianWeights, epsilon: f64, f: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
     let n = mesh.vertex_count();
-    let l = laplacian(mesh, weights, &morse_smooth::Watch::none()).expect("a Laplacian");
-    let b = mass(mesh, &MassOptions::default(), &morse_smooth::Watch::none()).expect("a mass matrix");
+    let l = laplacian(mesh, weights, &Watch::none()).expect("a Laplacian");
+    let b = mass(mesh, &MassOptions::default(), &Watch::none()).expect("a mass matrix");
     let (mut dense_l, mut dense_b) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
     l.triplet_iter().for_each(|(i, j, v)| dense_l[(i, j)] += v);
     b.triplet_iter().for_each(|(i, j, v)| dense_b[(i, j)] += v);
@@ -233,7 +234,7 @@ fn small_optima_are_those_of_a_dense_barrier_method() {
 /// Persistence of a field's chosen extrema, and whether a component has another one of the kind.
 fn diagram(mesh: &TriMesh, values: &[f64]) -> PersistenceDiagram {
     let field = ScalarField::new(mesh, values).expect("a field");
-    morse_smooth::field::persistence(&field, &morse_smooth::Watch::none()).expect("a diagram")
+    morse_smooth::field::persistence(&field, &Watch::none()).expect("a diagram")
 }
 
 #[test]
@@ -488,4 +489,34 @@ fn extreme_meshes_and_scales() {
             if scale > 0.0 { [&reference.minima, &reference.maxima] } else { [&reference.maxima, &reference.minima] };
         assert_eq!([&report.minima, &report.maxima], kinds, "scale {scale}, offset {offset}");
     }
+}
+
+#[test]
+fn stopped_work_leaves_no_trace() {
+    let mesh = shapes::torus(40, 30, 0.2).expect("a torus");
+    let field = noisy(&mesh, 8);
+    let options =
+        PrescribeOptions { representatives: 3, again: true, prominence: Some(0.05), ..PrescribeOptions::default() };
+    let method = Method::Prescribe(options);
+    let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).expect("a smoother");
+    let mut fractions = Vec::new();
+    let mut tell = |progress: Progress| {
+        fractions.push(progress.fraction);
+        ControlFlow::Continue(())
+    };
+    let expected = smoother.apply(&field, &method, &Watch::new(&mut tell)).expect("a field");
+    assert!(fractions.is_sorted() && fractions.len() > 20, "{fractions:?}");
+    assert_eq!(fractions.last(), Some(&1.0));
+    for last in (0..fractions.len()).step_by(5) {
+        let mut asked = 0;
+        let mut stop = |_: Progress| {
+            asked += 1;
+            if asked > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let stopped = smoother.apply(&field, &method, &Watch::new(&mut stop));
+        assert_eq!((stopped.map_err(|error| error.code()).err(), asked), (Some("Cancelled"), last + 1));
+    }
+    let found = smoother.apply(&field, &method, &Watch::none()).expect("a field");
+    assert!(found.values.iter().zip(&expected.values).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert_eq!(found.reports, expected.reports);
 }

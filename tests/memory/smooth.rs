@@ -3,8 +3,8 @@
 use morse_smooth::field::{Features, Missing, Threshold};
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::smooth::{
-    BilateralOptions, Constraints, Energy, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method, Metric,
-    Precision, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained,
+    BilateralOptions, Constraints, Energy, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
+    Metric, Precision, PrescribeOptions, Smoother, SmootherOptions, SolverChoice, TikhonovOptions, Unconstrained,
 };
 use morse_smooth::{TriMesh, Watch};
 
@@ -27,6 +27,12 @@ fn methods(channels: usize, missing: Missing) -> Vec<Method<'static>> {
         all.push(Method::LowPass(LowPassOptions { channels, missing, ..Default::default() }));
         let lengths = BilateralOptions { radius: 0.05, sigma_distance: 0.03, sigma_value: 0.5, ..Default::default() };
         all.push(Method::Bilateral(BilateralOptions { channels, missing, ..lengths }));
+    }
+    if channels == 1 && missing != Missing::Fill {
+        let functional = Functional::Tikhonov(TikhonovOptions { missing, ..Default::default() });
+        let prescribed = PrescribeOptions { functional, complete: true, prominence: Some(0.01), ..Default::default() };
+        all.push(Method::Prescribe(prescribed));
+        all.push(Method::Prescribe(PrescribeOptions { preview: true, ..prescribed }));
     }
     all
 }

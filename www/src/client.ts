@@ -1,8 +1,8 @@
 /**
  * The page's end of the worker: one request under way at a time, and the latest settings win.
  *
- * While a slider moves, at most one `update` waits; a newer one takes its place, so that stale work is dropped and never
- * queued up. Opening a mesh drops everything that waits, since it was meant for the mesh before.
+ * While a slider moves, at most one `update` or `preview` waits; a newer one takes its place, so that stale work is dropped and
+ * never queued up. Opening a mesh drops everything that waits, since it was meant for the mesh before.
  */
 import type { Failure, Part, Reply, Request, Settings } from './protocol';
 
@@ -39,7 +39,8 @@ export class Client {
   run(request: Request): void {
     if (this.lost) this.start();
     if (request.kind === 'open') this.waiting = [];
-    if (request.kind === 'update') this.waiting = this.waiting.filter(({ kind }) => kind !== 'update');
+    if (request.kind === 'update' || request.kind === 'preview') this.drop('preview');
+    if (request.kind === 'update') this.drop('update');
     this.waiting.push(request);
     this.next();
   }
@@ -50,6 +51,10 @@ export class Client {
     this.waiting = [];
     this.current = null;
     this.start();
+  }
+
+  private drop(stale: Request['kind']): void {
+    this.waiting = this.waiting.filter(({ kind }) => kind !== stale);
   }
 
   private start(): void {

@@ -25,6 +25,8 @@ export interface ControlEvents {
   settings(): void;
   /** Another field of the same mesh. */
   field(): void;
+  /** ε alone, while it moves. */
+  epsilon(): void;
   /** Said before `settings`, for what needs no worker. */
   delta(value: number): void;
   persistence(value: number): void;
@@ -62,7 +64,10 @@ export class Controls {
     private readonly events: ControlEvents,
   ) {
     for (const { id, label } of examples) this.example.add(new Option(label, id));
-    this.smoothing = new SmoothingControls(() => events.settings());
+    this.smoothing = new SmoothingControls(
+      () => events.settings(),
+      () => events.epsilon(),
+    );
     this.write(initial);
     this.wireSettings();
     this.wireDisplay();
@@ -128,6 +133,10 @@ export class Controls {
   /** There is something to make a picture of. */
   setDrawable(): void {
     element('#save-picture', HTMLButtonElement).disabled = false;
+  }
+
+  writeEpsilon(value: number): void {
+    this.smoothing.writeEpsilon(value);
   }
 
   writeRule(rule: Rule): void {

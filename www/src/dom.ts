@@ -29,10 +29,28 @@ export function short(value: number): string {
   return Number(value.toPrecision(3)).toString().replace('-', '−');
 }
 
+/** Of a relative error: one digit. */
+export function about(error: number): string {
+  if (error < 1e-9) return 'below 1e−9';
+  if (error < 1e-4) return `about ${error.toExponential(0).replace('e-', 'e−')}`;
+  return `about ${short(Number((100 * error).toPrecision(1)))} %`;
+}
+
 export function whole(value: number): string {
   return value.toLocaleString('en').replace('-', '−');
 }
 
 export function duration(milliseconds: number): string {
   return milliseconds < 1000 ? `${Math.max(1, Math.round(milliseconds))} ms` : `${(milliseconds / 1000).toFixed(1)} s`;
+}
+
+/** Gives the user a file. */
+export function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+  const anchor = document.createElement('a');
+  anchor.href = address;
+  anchor.download = name;
+  anchor.click();
+  // The browser has taken its own hold of the data by the next turn of the event loop.
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
 }

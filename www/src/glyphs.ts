@@ -16,6 +16,7 @@ import {
   Vector3,
 } from 'three';
 import type { Solids, SolidSize } from 'morse-smooth/snapshot';
+import type { Places } from './places';
 
 /** The kinds of critical points, as the package numbers them: −1, 0, 1. */
 export const KINDS = ['minima', 'saddles', 'maxima'] as const;
@@ -39,6 +40,31 @@ export function chosen(all: readonly Solids[], isChosen: (vertex: number) => boo
     some.reduce((count, { vertices }) => count + vertices.length, 0),
   );
   return some.filter(({ vertices }) => vertices.length > 0).map((solids) => ({ ...solids, radius }));
+}
+
+/** Entry k of both arrays is about the same point. */
+export interface Points {
+  vertices: Uint32Array;
+  /** −1 minimum, 0 saddle, 1 maximum; for any other vertex 0, too. */
+  kinds: Int8Array;
+}
+
+/** Solids at those points that are on the surface. `look`: one of each kind. `open`: whether the surface is seen from both sides. */
+export function solidsAt(
+  { vertices, kinds }: Points,
+  look: readonly Solids[],
+  places: Places,
+  radius: number,
+  open: boolean,
+): Solids[] {
+  const solids = look.map((solid) => {
+    const members = vertices.filter((vertex, k) => KINDS[kinds[k]! + 1] === solid.kind && places.has(vertex));
+    const axes = new Float32Array(3 * members.length);
+    members.forEach((vertex, k) => places.axis(vertex).toArray(axes, 3 * k));
+    const bothSides = new Uint8Array(members.length).fill(open ? 1 : 0);
+    return { ...solid, vertices: members, places: places.positions(members), axes, bothSides, radius };
+  });
+  return solids.filter((solid) => solid.vertices.length > 0);
 }
 
 interface Materials {

@@ -3,7 +3,7 @@ import type { SolidSize } from 'morse-smooth/snapshot';
 import { Client } from './client';
 import { Colors } from './colors';
 import { Controls } from './controls';
-import { element } from './dom';
+import { about, download, element, input } from './dom';
 import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
@@ -14,10 +14,12 @@ import { Paths } from './reading/paths';
 import { Reading } from './reading/reading';
 import type { Lit } from './reading/reading';
 import { clearReport, showMesh, showReport } from './readout';
+import { Choosing } from './smoothing/choosing';
 import { Constraining } from './smoothing/constraining';
+import { MovingEpsilon } from './smoothing/epsilon';
 import { ReportPanel } from './smoothing/report';
 import { INITIAL_SMOOTHING } from './smoothing/settings';
-import { Status } from './status';
+import { describe, Status } from './status';
 import { makeTabs } from './tabs';
 import { link } from './viewer';
 
@@ -72,6 +74,7 @@ const controls = new Controls(EXAMPLES, INITIAL, {
     forgetDecisions();
     update();
   },
+  epsilon: moveEpsilon,
   delta: showDelta,
   persistence: (value) => reading.setThreshold(value),
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
@@ -109,6 +112,18 @@ const constraining = new Constraining({
     for (const panel of Object.values(panels)) panel.setSpot(point);
   },
 });
+const moving = new MovingEpsilon({
+  preview: (whole) => client.run({ kind: 'preview', settings: readSettings(), whole }),
+  rest: update,
+});
+const choosing = new Choosing({
+  epsilon: (value) => {
+    controls.writeEpsilon(value);
+    moveEpsilon();
+  },
+  choose: (rule) => ask({ kind: 'choose', rule }),
+});
+for (const handle of [input('epsilon'), ...choosing.handles]) moving.holdBy(handle);
 eachViewer((viewer) => {
   viewer.onPick = (vertex) => constraining.toggle([vertex]);
 });
@@ -118,8 +133,12 @@ reading.setState(INITIAL.delta, INITIAL.persistence, INITIAL.overrides);
 const client = new Client({
   part: show,
   progress: (fraction) => status.progress(fraction),
-  working: (request) => status.working(describe(request)),
+  working: (request) => {
+    if (request.kind !== 'preview') status.working(describe(request));
+  },
   done: (request, settings) => {
+    if (request.kind === 'preview') return;
+    showPreview(null);
     if (request.kind === 'addField') {
       source?.added.push(request.file);
       if (!client.busy) forgetDecisions();
@@ -130,8 +149,10 @@ const client = new Client({
     status.dismiss();
   },
   failed: (_request, failure, settings) => {
+    showPreview(null);
     status.fail(failure);
     offered = null;
+    if (client.lost) moving.canPreview = false;
     if (settings) accepted = settings;
     // Back to what is shown, unless the user has already asked for something else.
     if (settings && !client.busy) writeSettings(settings);
@@ -139,7 +160,9 @@ const client = new Client({
     for (const panel of Object.values(panels))
       if (panel.awaiting) panel.say(shown ? 'There is no smoothed field.' : 'No mesh is open.');
   },
-  idle: () => status.idle(),
+  idle: () => {
+    if (!moving.moving) status.idle();
+  },
 });
 
 function readSettings(): Settings {
@@ -147,6 +170,7 @@ function readSettings(): Settings {
 }
 
 function writeSettings(settings: Settings): void {
+  moving.settle();
   controls.write(settings);
   reading.setState(settings.delta, settings.persistence, settings.overrides);
   constraining.vertices = settings.picked;
@@ -165,21 +189,6 @@ function eachViewer(use: (viewer: NonNullable<Panel['viewer']>) => void): void {
 }
 
 // ---------------------------------------------------------------- what the worker sends
-
-function describe(request: Request): string {
-  switch (request.kind) {
-    case 'open':
-      return `Opening ${request.file.name}…`;
-    case 'addField':
-      return `Reading ${request.file.name}…`;
-    case 'update':
-      return 'Working…';
-    case 'save':
-      return 'Writing…';
-    case 'picture':
-      return 'Drawing…';
-  }
-}
 
 function show(part: Part): void {
   switch (part.kind) {
@@ -220,6 +229,23 @@ function show(part: Part): void {
       return showReport(part.report);
     case 'unsmoothed':
       return clearAfter(part.reason.message);
+    case 'family':
+      moving.canPreview = part.state === 'growing' || part.state === 'complete';
+      return choosing.setFamily(part);
+    case 'epsilonCurve':
+      return choosing.setCurve(part.curve);
+    case 'choices':
+      return choosing.setChoices(part.choices);
+    case 'chosen':
+      controls.writeEpsilon(part.choice.epsilon);
+      choosing.setChosen(part.choice);
+      return update();
+    case 'previewed':
+      return showPreview(part.error);
+    case 'preview':
+      // Of the field after there are no counts at other δ on the way.
+      reading.setHierarchy('after', null);
+      return panels.after.setPreview(part);
     case 'saved':
       return download(part.name, part.bytes);
   }
@@ -255,6 +281,8 @@ function clearAfter(text: string): void {
   panels.after.clear(text);
   reading.setHierarchy('after', null);
   colors.clearDifference();
+  moving.canPreview = false;
+  choosing.clear(text);
   clearReport();
   report.clear(text);
   controls.setSaveable(false);
@@ -265,25 +293,18 @@ function showSource(): void {
   if (source) controls.showSource(source.example?.id ?? null, source.file.name);
 }
 
-function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
-  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
-  const anchor = document.createElement('a');
-  anchor.href = address;
-  anchor.download = name;
-  anchor.click();
-  // The browser has taken its own hold of the data by the next turn of the event loop.
-  setTimeout(() => URL.revokeObjectURL(address), 1000);
-}
-
 // ---------------------------------------------------------------- what the user asks for
 
 function update(): void {
+  moving.settle();
   showChoices();
   ask({ kind: 'update', settings: readSettings() });
 }
 
 /** For the mesh that is open: a worker that broke down has to be given it again. */
 function ask(request: Request): void {
+  // What is saved, and what a field is added to, is not a preview.
+  if (moving.moving) update();
   if (client.lost && source) open(source, accepted, !panels.after.awaiting);
   client.run(request);
 }
@@ -326,6 +347,7 @@ function addField(file: File): void {
 /** A worker that computes cannot listen: ending it is the only way to make it stop. */
 function stop(): void {
   client.restart();
+  moving.canPreview = false;
   offered = null;
   if (source) {
     writeSettings(accepted);
@@ -345,7 +367,8 @@ function complain(code: string, message: string): void {
 
 /** What does not wait for the worker. */
 function showChoices(): void {
-  const { coloring, method, rule } = controls.read();
+  const { coloring, method, rule, epsilon } = controls.read();
+  choosing.setEpsilon(epsilon);
   colors.name(coloring);
   constraining.setMethod(method, rule);
 }
@@ -354,6 +377,18 @@ function showChoices(): void {
 function showDelta(delta: number): void {
   reading.setDelta(delta);
   for (const panel of Object.values(panels)) panel.setDelta(delta);
+}
+
+/** Shown from the family at once, where there is one, and solved for when it rests. */
+function moveEpsilon(): void {
+  choosing.setEpsilon(controls.read().epsilon);
+  moving.moved();
+}
+
+/** `error`: how far the field that is shown may be from the exact one, in comparison with it; null where it is that. */
+function showPreview(error: number | null): void {
+  document.documentElement.toggleAttribute('data-preview', error !== null);
+  if (error !== null) status.preview(`Preview, error ${about(error)}`);
 }
 
 /** The ways between pairs are asked for when somebody first points at one. */

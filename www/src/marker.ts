@@ -3,20 +3,14 @@ import { Group } from 'three';
 import type { Vector3 } from 'three';
 import type { Solids } from 'morse-smooth/snapshot';
 import { CurveLayer } from './curves';
-import { GlyphLayer, KINDS } from './glyphs';
+import { GlyphLayer, solidsAt } from './glyphs';
+import type { Points } from './glyphs';
 import type { Places } from './places';
 
 const BRIGHT = 0xffd21f;
 const RADIUS = 0.03;
 const PATH = { color: BRIGHT, width: 4, opacity: 1, casing: { color: 0x10151f, width: 6 } };
 const HIDDEN_PATH = { color: BRIGHT, width: 2, opacity: 1, casing: null };
-
-/** Entry k of both arrays is about the same point. */
-export interface LitPoints {
-  vertices: Uint32Array;
-  /** −1 minimum, 0 saddle, 1 maximum; for any other vertex 0, too. */
-  kinds: Int8Array;
-}
 
 export class Marker {
   readonly group = new Group();
@@ -43,15 +37,8 @@ export class Marker {
   }
 
   /** `look`: a solid of each kind. `path`: the two vertices of each segment. */
-  set({ vertices, kinds }: LitPoints, look: readonly Solids[], places: Places, path: Uint32Array): void {
-    const solids = look.map((solid) => {
-      const members = vertices.filter((vertex, k) => KINDS[kinds[k]! + 1] === solid.kind && places.has(vertex));
-      const axes = new Float32Array(3 * members.length);
-      members.forEach((vertex, k) => places.axis(vertex).toArray(axes, 3 * k));
-      const bothSides = new Uint8Array(members.length).fill(1);
-      return { ...solid, vertices: members, places: places.positions(members), axes, bothSides, radius: RADIUS };
-    });
-    const present = solids.filter((solid) => solid.vertices.length > 0);
+  set({ vertices, kinds }: Points, look: readonly Solids[], places: Places, path: Uint32Array): void {
+    const present = solidsAt({ vertices, kinds }, look, places, RADIUS, true);
     for (const layer of [this.glyphs, this.ghosts]) layer.set(present);
     const segments = places.positions(path);
     this.path.set(segments, PATH);

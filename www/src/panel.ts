@@ -68,6 +68,14 @@ export class Panel {
     this.setCounts({ ...countsAt(hierarchy, delta), indexSum: delta === 0 ? counts.indexSum : null }, shape);
   }
 
+  /** While ε moves, without all that takes longer; `points` are those at the δ that is shown. */
+  setPreview({ shades, counts, ...points }: Extract<Part, { kind: 'preview' }>): void {
+    if (!this.critical) return;
+    const { size, shape } = this.critical;
+    this.viewer?.setPreview(shades, points, size, !shape.closed);
+    this.setCounts(counts, shape);
+  }
+
   /** Names the pair that is lit in this view, if any. */
   setLit(pair: Lit | null, path?: Uint32Array): void {
     if (pair && !this.awaiting) this.root.dataset['lit'] = `${pair.extremum} ${pair.saddle}`;

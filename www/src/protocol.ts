@@ -4,7 +4,15 @@
  * The page sends one request at a time and the worker answers each with any number of parts, then `done` or `failed`.
  * Only what changed is sent, so that a δ slider does not resend the mesh.
  */
-import type { CriticalCounts, Diagnostic, Link, MeshTopology, SmoothReport } from 'morse-smooth';
+import type {
+  ChosenEpsilon,
+  CriticalCounts,
+  Diagnostic,
+  EpsilonRule,
+  Link,
+  MeshTopology,
+  SmoothReport,
+} from 'morse-smooth';
 import type { MeshFormat } from 'morse-smooth/files';
 import type { Camera, Colormap, DrawList, Lines, Solids, Surface } from 'morse-smooth/snapshot';
 import type { Method, Smoothing } from './smoothing/settings';
@@ -122,6 +130,18 @@ export interface Arcs {
   heights: Float64Array<ArrayBuffer>;
 }
 
+/** What becomes of the field along ε; NaN where it is not known yet. Norms are of the field scaled to [0, 1]. */
+export interface EpsilonCurve {
+  epsilons: Float64Array;
+  /** ‖x − f‖. */
+  distances: Float64Array;
+  /** ‖Lx‖. */
+  roughness: Float64Array;
+  minima: Float64Array;
+  maxima: Float64Array;
+  saddles: Float64Array;
+}
+
 export interface FieldEntry {
   key: string;
   label: string;
@@ -165,6 +185,9 @@ export type Request =
   | { kind: 'open'; file: File; added: File[]; settings: Settings; smooth: boolean }
   | { kind: 'addField'; file: File; settings: Settings }
   | { kind: 'update'; settings: Settings }
+  /** For another ε alone, while that moves. `whole`: all that the side after shows, not only what can be had in a frame's time. */
+  | { kind: 'preview'; settings: Settings; whole: boolean }
+  | { kind: 'choose'; rule: EpsilonRule }
   | { kind: 'save' }
   | { kind: 'picture'; view: PictureView };
 
@@ -205,6 +228,17 @@ export type Part =
   | { kind: 'difference'; largest: number; shades: Float32Array; colors: Uint8Array; gap: number | null }
   | { kind: 'report'; report: AfterReport }
   | { kind: 'unsmoothed'; reason: Unsmoothed }
+  /** Whether there are the smoothed fields of all ε. `why` not. `error`: the largest one, estimated, relative to the field. */
+  | { kind: 'family'; state: 'none' | 'coming' | 'growing' | 'complete'; why: string; error: number }
+  | { kind: 'epsilonCurve'; curve: EpsilonCurve }
+  /** What rules come to. */
+  | { kind: 'choices'; choices: ChosenEpsilon[] }
+  /** The answer to `choose`. */
+  | { kind: 'chosen'; choice: ChosenEpsilon }
+  /** Comes before what is shown of that ε; `error` as above. */
+  | { kind: 'previewed'; error: number }
+  /** Critical points at δ; everything else of the side after is out of date. */
+  | { kind: 'preview'; shades: Float32Array; vertices: Uint32Array; kinds: Int8Array; counts: CriticalCounts }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };
 
 export type Reply =

@@ -5,7 +5,6 @@
  * that fails sends nothing, so that the page goes on with what it had.
  */
 import type { PersistencePairs, TriMesh } from 'morse-smooth';
-import { writeMesh } from 'morse-smooth/files';
 import type { MeshFile } from 'morse-smooth/files';
 import { Scene } from 'morse-smooth/snapshot';
 import type { Solids } from 'morse-smooth/snapshot';
@@ -18,9 +17,13 @@ import type { Field } from './gaps';
 import { meanEdgeOf, rangeOf } from './measures';
 import type { Coloring, FieldEntry, Found, Hierarchy, Part, PictureView, Settings, Side } from './protocol';
 import { findConstraints, nothingHeld, partUnheld } from './smoothing/constraints';
+import { fileOf, plainName } from './saving';
+import { Families, whyNoFamily } from './smoothing/family';
 import { Methods } from './smoothing/methods';
+import { isQuick, quickPart } from './smoothing/preview';
 import {
   constraintsKey,
+  familyKey,
   hasConstraints,
   smoothingKey,
   smoothingOf,
@@ -47,7 +50,15 @@ export class Session {
   private readonly triangles: Uint32Array;
   private readonly meanEdge: number;
   private readonly methods: Methods;
+  /** Of the settings behind the field after. */
+  readonly families: Families;
   private smoothed: Float64Array | null = null;
+  /** How long it took. */
+  private milliseconds = 0;
+  /** Whether the page shows another ε than that of the settings. */
+  private isPreview = false;
+  /** The vertex of each corner of the surface. */
+  private corners: Uint32Array | null = null;
   /** Of the field before. */
   private pairs: PersistencePairs | null = null;
   /** Of the field before. */
@@ -71,6 +82,7 @@ export class Session {
     this.scene = new Scene(this.positions, this.triangles);
     this.meanEdge = meanEdgeOf(this.positions, this.triangles);
     this.methods = new Methods(this.mesh, this.meanEdge, onProgress);
+    this.families = new Families(onProgress);
     this.entries = [];
     for (const [label, values] of Object.entries(file.fields))
       this.enter({ key: `file:${label}`, label, origin: 'file' }, values);
@@ -127,17 +139,8 @@ export class Session {
     const label = this.labelOf(settings.field);
     const suffix = suffixOf(settings);
     const fields = { [label]: this.fields.get(settings.field)!.values, [`${label}_${suffix}`]: smoothed };
-    const { positions, triangles } = this;
-    const bytes = writeMesh(
-      { positions, triangles },
-      {
-        format: 'ply',
-        fields: plainNames(fields),
-        binary: true,
-        missing: 'omit',
-      },
-    );
-    send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes: new Uint8Array(bytes) });
+    const bytes = fileOf(this.positions, this.triangles, fields);
+    send({ kind: 'saved', name: `${this.stem}_${suffix}.ply`, bytes });
   }
 
   /** What the page shows, as a picture. */
@@ -157,6 +160,7 @@ export class Session {
   }
 
   free(): void {
+    this.families.drop();
     this.methods.free();
     this.scene.free();
     this.mesh.free();
@@ -238,14 +242,56 @@ export class Session {
   updateAfter(wanted: Settings, send: Send): void {
     const field = this.known(wanted.field);
     const given = this.fields.get(field)!;
-    const before = given.known;
     const key = smoothingKey({ ...wanted, field });
     if (key === this.leftOut) return;
     this.leftOut = null;
     if (this.sent.get('smoothed') !== key || !this.smoothed) {
       if (!this.smooth(given, { ...wanted, field }, key, send)) return;
     }
-    const values = this.smoothed!;
+    this.settings = { ...wanted, field };
+    this.isPreview = false;
+    this.showAfter(this.smoothed!, this.settings, key, send);
+    this.prepareFamily(given, this.settings, send);
+  }
+
+  private prepareFamily(field: Field, settings: Settings, send: Send): void {
+    const found = hasConstraints(settings) ? this.found : null;
+    const job = {
+      key: familyKey(settings),
+      why: whyNoFamily(settings, this.mesh.vertexCount),
+      cost: this.milliseconds,
+      make: () => this.methods.family(field, settings, found),
+    };
+    this.families.prepare(job, send);
+  }
+
+  /** Shows another ε, without a report, where its field is at hand; what is saved stays what it was. */
+  preview(wanted: Settings, whole: boolean, send: Send): void {
+    const settings = { ...wanted, field: this.known(wanted.field) };
+    const read = this.families.read(familyKey(settings), settings.epsilon);
+    if (!read) return;
+    const { values, error } = read;
+    send({ kind: 'previewed', error });
+    this.isPreview = true;
+    if (whole || isQuick(this.mesh)) return this.showAfter(values, settings, `preview ${smoothingKey(settings)}`, send);
+    this.forgetShown();
+    const { coloring } = settings;
+    const before = this.fields.get(settings.field)!;
+    this.corners ??= this.scene.surface().vertices;
+    send(quickPart(this.mesh, values, this.corners, before, settings));
+    if (isByBasins(coloring)) send(this.basins('after', values, coloring, 0).part);
+    if (coloring === 'difference') send(differencePart(this.scene, before.known, values));
+  }
+
+  /** After a preview that came to nothing the page gets back what it had. */
+  endPreview(send: Send): void {
+    if (this.isPreview && this.settings && this.smoothed) this.updateAfter(this.settings, send);
+  }
+
+  /** Sends what is due of the side after. `key`: everything that the values depend on. */
+  private showAfter(values: Float64Array, wanted: Settings, key: string, send: Send): void {
+    const { field } = wanted;
+    const before = this.fields.get(field)!.known;
     const holes = omitting(values);
     const parts: Part[] = [];
     const keys: [string, string][] = [];
@@ -284,7 +330,6 @@ export class Session {
       parts.push(differencePart(this.scene, before, values));
     for (const [slot, slotKey] of keys) this.sent.set(slot, slotKey);
     parts.forEach(send);
-    this.settings = { ...wanted, field };
   }
 
   /** False where there is nothing to hold the field with: that is said, and the page goes on without a smoothed field. */
@@ -296,7 +341,8 @@ export class Session {
       const { values, ...report } = this.methods.run(before, wanted, this.pairs!, found);
       this.smoothed = values;
       this.sent.set('smoothed', key);
-      send({ kind: 'report', report: { ...report, milliseconds: performance.now() - start } });
+      this.milliseconds = performance.now() - start;
+      send({ kind: 'report', report: { ...report, milliseconds: this.milliseconds } });
       return true;
     } catch (error) {
       const reason = error instanceof Unheld ? nothingHeld(wanted) : partUnheld(error, this.mesh.topology.components);
@@ -310,7 +356,13 @@ export class Session {
 
   private forgetAfter(): void {
     this.smoothed = null;
-    for (const slot of [...this.sent.keys()]) if (isAfter(slot)) this.sent.delete(slot);
+    this.families.drop();
+    this.sent.delete('smoothed');
+    this.forgetShown();
+  }
+
+  private forgetShown(): void {
+    for (const slot of [...this.sent.keys()]) if (slot.startsWith('after.')) this.sent.delete(slot);
   }
 
   private hierarchyPart(side: Side, values: Float64Array, hierarchy: Hierarchy, solids: Solids[]): Part {
@@ -352,8 +404,6 @@ export class Session {
 /** No vertex is constrained at all: found out before the package is asked. */
 class Unheld extends Error {}
 
-const isAfter = (slot: string): boolean => slot === 'smoothed' || slot.startsWith('after.');
-
 const isByBasins = (coloring: Coloring): coloring is 'minima' | 'maxima' =>
   coloring === 'minima' || coloring === 'maxima';
 
@@ -368,10 +418,3 @@ function linesKey(field: string, { levels, levelPlaces, persistence, overrides }
     ? `${field} ${levels}`
     : `${field} ${levels} ${persistence} ${JSON.stringify(overrides)}`;
 }
-
-/** PLY property names are single words. */
-function plainNames(fields: Record<string, Float64Array>): Record<string, Float64Array> {
-  return Object.fromEntries(Object.entries(fields).map(([name, values]) => [plainName(name), values]));
-}
-
-const plainName = (name: string): string => name.replace(/[^\w.-]+/g, '_');

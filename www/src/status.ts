@@ -1,6 +1,6 @@
 /** The page's one state (ready, working, error), the line that says it, and the notice that explains an error. */
 import { element } from './dom';
-import type { Failure } from './protocol';
+import type { Failure, Request } from './protocol';
 
 /** Work that ends sooner is not worth a button to stop it. */
 const STOP_AFTER = 1500;
@@ -23,6 +23,12 @@ export class Status {
       this.timer = window.setTimeout(() => {
         this.stop.hidden = false;
       }, STOP_AFTER);
+  }
+
+  /** The page is not yet at rest, though nobody has to wait. */
+  preview(what: string): void {
+    this.root.dataset['state'] = 'working';
+    this.line.textContent = what;
   }
 
   /** Only where it takes long enough to be read. */
@@ -50,5 +56,24 @@ export class Status {
   dismiss(): void {
     this.notice.hidden = true;
     if (this.root.dataset['state'] === 'error') this.idle();
+  }
+}
+
+/** What is under way. */
+export function describe(request: Request): string {
+  switch (request.kind) {
+    case 'open':
+      return `Opening ${request.file.name}…`;
+    case 'addField':
+      return `Reading ${request.file.name}…`;
+    case 'update':
+    case 'preview':
+      return 'Working…';
+    case 'choose':
+      return 'Choosing ε…';
+    case 'save':
+      return 'Writing…';
+    case 'picture':
+      return 'Drawing…';
   }
 }

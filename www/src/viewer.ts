@@ -19,13 +19,13 @@ import {
   WireframeGeometry,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { Camera, Lines, Solids, Surface } from 'morse-smooth/snapshot';
+import type { Camera, Lines, Solids, SolidSize, Surface } from 'morse-smooth/snapshot';
 import { along, basinColors, textureOf, withGaps } from './colormap';
 import { CurveLayer, segmentsOf } from './curves';
 import { fieldOfView, frame } from './framing';
-import { GlyphLayer, radiusOf } from './glyphs';
+import { GlyphLayer, radiusOf, solidsAt } from './glyphs';
+import type { Points } from './glyphs';
 import { Marker } from './marker';
-import type { LitPoints } from './marker';
 import { hitOf, listenToClicks, nearestOf } from './picking';
 import { Places } from './places';
 import type { Found, Look } from './protocol';
@@ -179,6 +179,14 @@ export class Viewer {
     this.draw();
   }
 
+  /** Colors and critical points of another field on the way, without its lines. `open`: whether the surface is seen from both sides. */
+  setPreview(shades: Float32Array, points: Points, size: SolidSize, open: boolean): void {
+    if (!this.look || !this.places) return;
+    this.surface.geometry.setAttribute('uv', along(shades));
+    for (const curves of Object.values(this.curves)) curves.clear();
+    this.setSolids(solidsAt(points, this.look.solids, this.places, radiusOf(size, points.vertices.length), open));
+  }
+
   /** `stepped`: colors with steps between them. */
   setColors(colors: Uint8Array, stepped: boolean): void {
     paint(this.plainMaterial, textureOf(colors, stepped));
@@ -212,7 +220,7 @@ export class Viewer {
   }
 
   /** `path`: the two vertices of each segment of a line between the points, where it is known. */
-  setLit(points: LitPoints | null, path: Uint32Array = new Uint32Array(0)): void {
+  setLit(points: Points | null, path: Uint32Array = new Uint32Array(0)): void {
     if (points && this.look && this.places && this.model.visible)
       this.marker.set(points, this.look.solids, this.places, path);
     else this.marker.clear();

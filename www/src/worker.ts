@@ -1,5 +1,6 @@
 /** The page's worker: loads the WebAssembly modules once and answers one request after the other. */
 import init, { TriMesh, version } from 'morse-smooth';
+import type { EpsilonRule } from 'morse-smooth';
 import initFiles, { readField, readMesh } from 'morse-smooth/files';
 import initPictures from 'morse-smooth/snapshot';
 import { failureOf, Refusal } from './failure';
@@ -13,7 +14,12 @@ interface WorkerScope {
 }
 const scope = globalThis as unknown as WorkerScope;
 
+/** Milliseconds without a request, after which something else may be done; more while a slider moves. */
+const QUIET = 250;
+const QUIET_AFTER_PREVIEW = 400;
+
 let session: Session | null = null;
+let timer = 0;
 
 /** Typed arrays move to the page instead of being copied; all of them were made for this message. */
 function post(message: Reply): void {
@@ -79,8 +85,22 @@ function update(open: Session, settings: Settings): void {
     open.updateAfter(settings, send);
   } catch (error) {
     if (open.settings) open.updateBefore(open.settings, send);
+    open.endPreview(send);
     throw error;
   }
+}
+
+function choose(rule: EpsilonRule): void {
+  if (!session) throw new Refusal('NoMesh', 'Open a mesh before choosing ε.');
+  send({ kind: 'chosen', choice: session.families.choose(rule) });
+}
+
+/** What nobody waits for, a step at a time: between two of them requests are heard. */
+function workOn(quiet: number): void {
+  const wait = Math.max(quiet, session?.families.pause ?? 0);
+  timer = setTimeout(() => {
+    if (session?.families.step()) workOn(0);
+  }, wait);
 }
 
 async function bytesOf(file: File): Promise<Uint8Array> {
@@ -99,6 +119,10 @@ async function answer(request: Request): Promise<void> {
       return addField(request);
     case 'update':
       return session ? update(session, request.settings) : undefined;
+    case 'preview':
+      return session?.preview(request.settings, request.whole, send);
+    case 'choose':
+      return choose(request.rule);
     case 'save':
       return session?.save(send);
     case 'picture':
@@ -115,10 +139,13 @@ async function main(): Promise<void> {
   }
   // The page sends the next request only after the answer to the last, so that none of them overlap.
   scope.onmessage = ({ data }) => {
-    answer(data).then(
-      () => post({ kind: 'done', settings: session?.settings ?? null }),
-      (error: unknown) => post({ kind: 'failed', failure: failureOf(error), settings: session?.settings ?? null }),
-    );
+    clearTimeout(timer);
+    answer(data)
+      .then(
+        () => post({ kind: 'done', settings: session?.settings ?? null }),
+        (error: unknown) => post({ kind: 'failed', failure: failureOf(error), settings: session?.settings ?? null }),
+      )
+      .then(() => workOn(data.kind === 'preview' ? QUIET_AFTER_PREVIEW : QUIET));
   };
   post({ kind: 'started', version });
 }

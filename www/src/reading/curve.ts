@@ -1,8 +1,7 @@
 /** The numbers of critical points against δ, before and after, with a mark at the δ that is shown. */
 import uPlot from 'uplot';
-import { whole } from '../dom';
 import type { Side, Steps } from '../protocol';
-import { ACCENT, axis, FAMILY, GRID, MAXIMUM, MINIMUM, plotIn, pointIn, SADDLE, SOFT } from './plot';
+import { ACCENT, axis, COUNT_SCALE, countAxis, FAMILY, MAXIMUM, MINIMUM, plotIn, pointIn, SADDLE, SOFT } from './plot';
 import { corners, countsAt } from './steps';
 
 /** Where the curve may end: at the first of these after which nothing changes, or at the last. */
@@ -45,20 +44,9 @@ export class Curve {
     this.plot = plotIn(box, {
       scales: {
         x: { time: false, range: () => [0, this.end] },
-        // Like a logarithm for large numbers, and has a 0.
-        y: { distr: 4, range: (_plot, _low, high) => [0, Math.max(4, 1.4 * (high ?? 0))] },
+        y: COUNT_SCALE,
       },
-      axes: [
-        axis('relative δ', { size: 24, space: 60 }),
-        axis('critical points', {
-          size: widthOf,
-          space: 22,
-          filter: powers,
-          grid: { stroke: GRID, width: 1, filter: powers },
-          ticks: { show: false },
-          values: (plot, splits) => splits.map((value) => labelOf(plot, value)),
-        }),
-      ],
+      axes: [axis('relative δ', { size: 24, space: 60 }), countAxis()],
       series: [{}, ...lines],
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       hooks: {
@@ -165,20 +153,4 @@ export class Curve {
     });
     over.addEventListener('pointerleave', () => events.hover(null));
   }
-}
-
-/** Room for the widest number. */
-function widthOf(_plot: uPlot, values: string[] | null): number {
-  return 12 + 7 * Math.max(1, ...(values ?? []).map((text) => text.length));
-}
-
-/** 1, 10, 100: what lies between them would be more lines than the curves are. */
-function powers(_plot: uPlot, splits: number[]): (number | null)[] {
-  return splits.map((value) => (value === 0 || Number.isInteger(Math.log10(value)) ? value : null));
-}
-
-/** Where there is no room between 0 and 1, the 0 goes before. */
-function labelOf(plot: uPlot, value: number | null): string {
-  if (value === null || (value === 1 && plot.valToPos(0, 'y') - plot.valToPos(1, 'y') < 14)) return '';
-  return whole(value);
 }

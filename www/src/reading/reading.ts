@@ -67,6 +67,7 @@ export class Reading {
   }
 
   setHierarchy(side: Side, hierarchy: Hierarchy | null): void {
+    if (!hierarchy && !this.hierarchies[side]) return;
     if (hierarchy) this.hierarchies[side] = hierarchy;
     else delete this.hierarchies[side];
     this.curve.setSteps(side, hierarchy);

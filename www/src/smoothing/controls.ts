@@ -75,8 +75,11 @@ export class SmoothingControls {
   private width = 0;
   private hasGaps = false;
 
-  /** `changed` is called for whatever has to be computed. */
-  constructor(private readonly changed: () => void) {
+  /** `changed` is called for whatever has to be computed, `moved` while the slider of ε moves. */
+  constructor(
+    private readonly changed: () => void,
+    private readonly moved: () => void,
+  ) {
     this.bilateral.sigmaValue.factor = 100;
     writeQuantity(this.lowPass.mu, TAUBIN_MU);
     this.wire();
@@ -140,7 +143,7 @@ export class SmoothingControls {
     this.show();
   }
 
-  private writeEpsilon(value: number): void {
+  writeEpsilon(value: number): void {
     const epsilon = clamp(value, EPSILON_RANGE);
     this.epsilonNumber.value = String(Number(epsilon.toPrecision(4)));
     this.epsilon.value = String(Math.log10(epsilon));
@@ -170,11 +173,11 @@ export class SmoothingControls {
   }
 
   private wire(): void {
-    const { changed } = this;
+    const { changed, moved } = this;
     // Sliders report while they move; the client drops what a newer position makes stale.
     this.epsilon.addEventListener('input', () => {
       this.writeEpsilon(Number((10 ** Number(this.epsilon.value)).toPrecision(3)));
-      changed();
+      moved();
     });
     this.epsilonNumber.addEventListener('change', () => {
       const { valueAsNumber } = this.epsilonNumber;

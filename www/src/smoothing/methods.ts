@@ -1,6 +1,6 @@
 /** The worker's side of the methods: runs the chosen one and reports on it. */
 import { Smoother } from 'morse-smooth';
-import type { PersistencePairs, Smoothed, TriMesh } from 'morse-smooth';
+import type { Metric, PersistencePairs, Smoothed, SmoothingFamily, TriMesh } from 'morse-smooth';
 import { keptExtrema, thresholdOf } from '../findings';
 import { omitting } from '../gaps';
 import type { Field } from '../gaps';
@@ -49,6 +49,21 @@ export class Methods {
       pairsRemoved: null,
       unavoidable: null,
     };
+  }
+
+  /** Of all ε at once, as far as one factorisation takes it: best near the ε of the settings. */
+  family({ values, gaps }: Field, settings: Settings, found: Found | null): SmoothingFamily {
+    const { epsilon, metric, stars, unconstrained } = settings;
+    const constraints = { from: 'vertices', vertices: found?.features ?? [], stars } as const;
+    return this.smootherFor(settings).family(values, {
+      epsilon,
+      factorizations: 1,
+      onProgress: () => undefined,
+      ...(gaps > 0 ? { missing: settings.missing } : {}),
+      ...(settings.method === 'leastSquares'
+        ? { method: 'leastSquares', constraints, unconstrained }
+        : { method: 'tikhonov', metric: metric as Metric }),
+    });
   }
 
   private smoothed({ values, known, gaps }: Field, settings: Settings, found: Found | null): Smoothed {

@@ -79,6 +79,11 @@ export function byElements({ method, metric }: Pick<Smoothing, 'method' | 'metri
   return method === 'tikhonov' && metric === 'finiteElements';
 }
 
+/** Finite elements have a wavelength instead. */
+export function usesEpsilon({ method, metric }: Pick<Smoothing, 'method' | 'metric'>): boolean {
+  return method === 'leastSquares' || (method === 'tikhonov' && !byElements({ method, metric }));
+}
+
 /** Whether the threshold and the decisions about pairs have a part in what the method does. */
 export function usesPairs({ method, rule }: { method: Method; rule: Rule }): boolean {
   return method === 'simplify' || (hasConstraints({ method }) && rule === 'persistence');
@@ -122,6 +127,11 @@ export function smoothingKey(settings: Settings): string {
   }[method];
   const missing = canFill({ method }) ? settings.missing : 'omit';
   return JSON.stringify([field, method, by, missing, method === 'simplify' ? [] : [weights, bounds]]);
+}
+
+/** The same for the smoothed fields of all ε. */
+export function familyKey(settings: Settings): string {
+  return smoothingKey({ ...settings, epsilon: NaN });
 }
 
 /** What the saved field's name ends in. */
