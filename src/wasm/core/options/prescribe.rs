@@ -3,18 +3,16 @@
 use js_sys::{Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
-use super::{Smoothing, threshold};
+use super::threshold;
 use crate::error::{OptionError, Result};
 use crate::field::Threshold;
-use crate::smooth::{EpsilonRule, Extrema, Functional, Method, MethodName, Operator, PersistenceOf, PrescribeOptions};
+use crate::smooth::{Extrema, Functional, Method, PersistenceOf, PrescribeOptions};
 use crate::support::named::named;
 use crate::wasm::shared::arrays::ids;
 use crate::wasm::shared::record::{Record, read};
 
-/// What a field with prescribed extrema is asked for with; owns what its options borrow.
+/// What a field with prescribed extrema is asked for with, but for its functional; owns what its options borrow.
 pub(in crate::wasm::core) struct Prescribing {
-    /// The method whose functional is to be small.
-    functional: Smoothing,
     extrema: Choice,
     options: PrescribeOptions<'static>,
 }
@@ -38,18 +36,7 @@ const EXPECTED: &str = "vertices, `{ minima, maxima }`, or a rule that finds the
 const GIVEN_COUNT: &str = "an integer that is not negative, and it has no default";
 
 impl Prescribing {
-    pub(super) fn read(record: &Record, operator: Operator, has_default: bool) -> Self {
-        let is_constrained = record.holds("constraints");
-        let functional_of = |constrained: bool| {
-            let method = if constrained { MethodName::LeastSquares } else { MethodName::Tikhonov };
-            Smoothing::read_with(record, method, operator, has_default)
-        };
-        let functional = functional_of(is_constrained);
-        let reason =
-            if is_constrained { "it is not for least squares" } else { "without `constraints` it has no meaning" };
-        record.foreign(reason, &|_| {
-            functional_of(!is_constrained);
-        });
+    pub(super) fn read(record: &Record) -> Self {
         let defaults = PrescribeOptions::default();
         let extrema = record.part("extrema", Choice::read).unwrap_or(Choice::Rule(defaults.extrema));
         let options = PrescribeOptions {
@@ -66,27 +53,10 @@ impl Prescribing {
         if options.preview && record.has("margin") {
             record.inapplicable("margin", "a preview has no margin");
         }
-        Self { functional, extrema, options }
+        Self { extrema, options }
     }
 
-    pub(super) fn with_weights(self, record: &Record) -> Self {
-        if !record.holds("constraints") && record.has("weights") {
-            record.inapplicable("weights", "without `constraints` it has no meaning");
-            return self;
-        }
-        Self { functional: self.functional.with_weights(record), ..self }
-    }
-
-    pub(super) fn rule(&self) -> Option<EpsilonRule> {
-        self.functional.rule()
-    }
-
-    pub(super) fn method(&self) -> Method<'_> {
-        let functional = match self.functional.method() {
-            Method::Tikhonov(options) => Functional::Tikhonov(options),
-            Method::LeastSquares(options) => Functional::LeastSquares(options),
-            _ => Functional::default(),
-        };
+    pub(super) fn method<'a>(&'a self, functional: Functional<'a>) -> Method<'a> {
         let extrema = match &self.extrema {
             Choice::OfInput(vertices) => Extrema::OfInput(vertices),
             Choice::Named([minima, maxima]) => Extrema::Named { minima, maxima },

@@ -7,8 +7,8 @@ use super::epsilon::epsilon;
 use super::prescribe::Prescribing;
 use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
-    MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
+    BilateralOptions, Constraints, EpsilonRule, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions,
+    Method, MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
 use crate::wasm::shared::arrays::floats;
@@ -50,6 +50,9 @@ impl ShortMethod {
     }
 }
 
+/// Why an option of constraints is refused.
+const WITHOUT_CONSTRAINTS: &str = "without `constraints` it has no meaning";
+
 /// A method with its options; owns what the options of `smooth` borrow.
 pub(in crate::wasm::core) enum Smoothing {
     Tikhonov(TikhonovOptions, Option<EpsilonRule>),
@@ -57,7 +60,8 @@ pub(in crate::wasm::core) enum Smoothing {
     LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>, Option<EpsilonRule>),
     LowPass(LowPassOptions),
     Bilateral(BilateralOptions),
-    Prescribe(Box<Prescribing>),
+    /// With the method whose functional is to be small.
+    Prescribe(Box<Smoothing>, Prescribing),
 }
 
 impl Smoothing {
@@ -71,7 +75,7 @@ impl Smoothing {
         Self::read_with(record, method, operator, true)
     }
 
-    pub(super) fn read_with(record: &Record, method: MethodName, operator: Operator, has_default: bool) -> Self {
+    fn read_with(record: &Record, method: MethodName, operator: Operator, has_default: bool) -> Self {
         let channels = record.integer("channels").map_or(1, |channels| channels as usize);
         let missing = record.choice("missing").unwrap_or_default();
         match method {
@@ -92,14 +96,35 @@ impl Smoothing {
             }
             MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
             MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
-            MethodName::Prescribe => Self::Prescribe(Box::new(Prescribing::read(record, operator, has_default))),
+            MethodName::Prescribe => {
+                let functional = Self::read_functional(record, operator, has_default);
+                Self::Prescribe(Box::new(functional), Prescribing::read(record))
+            }
         }
+    }
+
+    /// The functional of least squares where there are constraints, else that of Tikhonov smoothing.
+    fn read_functional(record: &Record, operator: Operator, has_default: bool) -> Self {
+        let read = |constrained: bool| {
+            let method = if constrained { MethodName::LeastSquares } else { MethodName::Tikhonov };
+            Self::read_with(record, method, operator, has_default)
+        };
+        let constrained = record.holds("constraints");
+        let functional = read(constrained);
+        record.foreign(if constrained { "it is not for least squares" } else { WITHOUT_CONSTRAINTS }, &|_| {
+            read(!constrained);
+        });
+        functional
     }
 
     /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
     pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
-        if let Self::Prescribe(prescribing) = self {
-            return Self::Prescribe(Box::new(prescribing.with_weights(record)));
+        if let Self::Prescribe(functional, prescribing) = self {
+            if !record.holds("constraints") && record.has("weights") {
+                record.inapplicable("weights", WITHOUT_CONSTRAINTS);
+                return Self::Prescribe(functional, prescribing);
+            }
+            return Self::Prescribe(Box::new(functional.with_weights(record)), prescribing);
         }
         if let Self::LeastSquares(_, weights, ..) = &mut self {
             let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
@@ -112,7 +137,7 @@ impl Smoothing {
     pub(in crate::wasm::core) fn rule(&self) -> Option<EpsilonRule> {
         match self {
             Self::Tikhonov(_, rule) | Self::LeastSquares(.., rule) => *rule,
-            Self::Prescribe(prescribing) => prescribing.rule(),
+            Self::Prescribe(functional, _) => functional.rule(),
             _ => None,
         }
     }
@@ -130,7 +155,11 @@ impl Smoothing {
             }
             Self::LowPass(options) => Method::LowPass(*options),
             Self::Bilateral(options) => Method::Bilateral(*options),
-            Self::Prescribe(prescribing) => prescribing.method(),
+            Self::Prescribe(functional, prescribing) => prescribing.method(match functional.method() {
+                Method::Tikhonov(options) => Functional::Tikhonov(options),
+                Method::LeastSquares(options) => Functional::LeastSquares(options),
+                _ => Functional::default(),
+            }),
         }
     }
 }
