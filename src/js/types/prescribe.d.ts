@@ -73,8 +73,8 @@ export interface ExtremaOptions extends MissingOptions {
   again?: boolean;
   /**
    * Whether the smoothed field, flooded, is enough: it has exactly the chosen extrema in little more than the time of one smoothing, but
-   * is flat or steep where others were. `margin`, `prominence`, `range: "input"`, `values: "keep"`, `representatives: 3` and `again` are
-   * not for it: `InapplicableOption`. Default false.
+   * is flat where others were, with the smallest steps of double precision: single precision does not tell them. `margin`, `prominence`,
+   * `range: "input"`, `values: "keep"`, `representatives: 3` and `again` are not for it: `InapplicableOption`. Default false.
    */
   preview?: boolean;
 }
