@@ -2,8 +2,10 @@
 
 mod direct;
 mod iterative;
+mod lanes;
 mod matrix;
 mod ordering;
+mod vectors;
 
 pub use direct::{CholeskyAnalysis, CholeskyFactor, FactorSize, LaneBlock, Scalar};
 pub use iterative::{
@@ -11,3 +13,4 @@ pub use iterative::{
 };
 pub use matrix::{columns, gram, norm, product, submatrix, transposed_product};
 pub use ordering::{Permutation, minimum_degree, nested_dissection};
+pub(crate) use vectors::{Rows, dot_products};

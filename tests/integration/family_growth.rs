@@ -264,3 +264,20 @@ fn what_families_refuse() {
         assert_eq!(named(refused), ("InvalidOption", "noise".into()));
     }
 }
+
+#[test]
+fn powers_of_ten_are_exactly_so() {
+    let mesh = shapes::torus(13, 10, 0.2).unwrap();
+    let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
+    let family = built(&mut smoother, &noise(mesh.vertex_count(), 2), &FamilyOptions::default());
+    let sweep = family.sweep(&SweepOptions::default(), &Watch::none()).unwrap();
+    for exponent in -6..=4 {
+        let power: f64 = format!("1e{exponent}").parse().unwrap();
+        assert!(sweep.epsilons.contains(&power), "{power:e}: {:?}", sweep.epsilons);
+    }
+    let is_rounded = |shift: &f64| {
+        let power: f64 = format!("1e{}", shift.log10().round()).parse().unwrap();
+        *shift == power || (shift / power - 1.0).abs() > 1e-9
+    };
+    assert!(family.shifts().iter().all(is_rounded), "{:?}", family.shifts());
+}

@@ -143,6 +143,30 @@ describe('values', () => {
   });
 });
 
+describe('a sweep', () => {
+  it('refuses what it cannot be asked for before anything is computed', () => {
+    const smoother = new Smoother(make());
+    let told = 0;
+    const onProgress = () => void told++;
+    for (const [options, option] of [
+      [{ channel: 1 }, 'channel'],
+      [{ channel: -1 }, 'channel'],
+      [{ channel: 2 ** 32 }, 'channel'],
+      [{ counts: 1 }, 'counts'],
+      [{ epsilons: [1, NaN] }, 'epsilon'],
+      [{ epsilons: [1e5] }, 'epsilon'],
+      [{ epsilons: [1], epsilonRange: [2, 3] }, 'epsilon'],
+      [{ epsilons: [1], epsilonRange: [3, 2] }, 'epsilonRange'],
+    ]) {
+      expectError(() => smoother.sweep(f, { ...options, onProgress }), 'InvalidOption', { option });
+    }
+    expect(told).toBe(0);
+    expect(smoother.sweep(f, { epsilons: [], factorizations: 1 }).lInfinity).toHaveLength(0);
+    expect(smoother.sweep(f, { epsilons: [1], factorizations: 1, onProgress }).lInfinity).toHaveLength(1);
+    expect(told).toBeGreaterThan(0);
+  });
+});
+
 describe('a family', () => {
   it('says what it is', () => {
     const smoother = new Smoother(make());

@@ -63,7 +63,7 @@ export interface FamilyOptions extends ChannelOptions, FillOptions, ProgressOpti
   epsilonRange?: [number, number];
   /** The largest relative error over the range. Default 1e-6. */
   tolerance?: number;
-  /** Where the space begins, and is good first. Default 1. */
+  /** Where the space begins, and is good first; beyond the range, its nearer end. Default 1. */
   epsilon?: number;
   /** The most factorisations; {@link SmoothingFamily.grow} takes one more each time. Default as many as the tolerance needs. */
   factorizations?: number;
@@ -71,7 +71,7 @@ export interface FamilyOptions extends ChannelOptions, FillOptions, ProgressOpti
 
 /**
  * The smoothed fields for all ε of a range, in a space of a few dozen vectors: a product with them for each ε. Made by
- * {@link Smoother.family}; takes about 600 bytes for each vertex and channel while it grows, half of that afterwards.
+ * {@link Smoother.family}; takes about 900 bytes for each vertex and channel while it grows, half of that afterwards.
  *
  * ε outside of the range fails with `InvalidOption`.
  */

@@ -110,9 +110,9 @@ fn start(
         let field = matrices.restrict(&channel.normalized);
         let mut space = Space::new(&matrices, field, counted(matrices.mass()), sigma);
         let kernel = kernel(space.field_mass(), &matrices, &operators.active);
-        space.add(Kind::Kernel, kernel, &matrices, watch)?;
+        space.add(Kind::Kernel, vec![kernel], &matrices, watch)?;
         if !matrices.mass().has_gaps() {
-            space.add(Kind::Field, space.field().to_vec(), &matrices, watch)?;
+            space.add(Kind::Field, vec![space.field().to_vec()], &matrices, watch)?;
         }
         spaces.push(space);
     }
@@ -154,8 +154,9 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     let epsilon = growth.worst.0;
     let (n, count) = (matrices.unknowns().len() as u64, spaces.len());
     let dimension = spaces.iter().map(Space::dimension).max().unwrap_or(0) as u64 + 3;
-    // What is solved for together, what becomes of it in the spaces, and what makes that orthogonal; and the small matrices.
-    let vectors = 6 * count + 8 * count.min(TOGETHER) + 3 * TOGETHER;
+    // Solutions; what is solved for together, or else their images and what makes them orthogonal; and the small matrices.
+    let added = 1 + DERIVATIVES;
+    let vectors = added * count + (added * (count + 4)).max(8 * count.min(TOGETHER) + 3 * TOGETHER);
     memory::ensure(8 * n * vectors as u64 + 8 * dimension * dimension * (12 * count as u64 + 12))?;
     let full = settings(field.operators.options, false);
     let rough = SolverSettings { accuracy: Accuracy::Rough, ..full };
@@ -227,9 +228,7 @@ fn extend(
     watch: &Watch<'_>,
 ) -> Result<()> {
     for (space, vectors) in spaces.iter_mut().zip(added) {
-        for vector in vectors {
-            space.add(kind, vector, matrices, watch)?;
-        }
+        space.add(kind, vectors, matrices, watch)?;
     }
     // One that cannot be projected leaves those of the others as they were, too.
     let projections = spaces.iter().map(Space::projections).collect::<Result<Vec<_>>>()?;

@@ -2,12 +2,12 @@
 
 use super::choose;
 use super::estimate::logarithmic;
-use super::members::Family;
-use super::small::Pieces;
+use super::members::{Family, check_epsilon};
 use super::space::Space;
 use crate::error::{OptionError, Result};
 use crate::field::{DeltaOptions, ScalarField, critical_points};
 use crate::smooth::report::energies;
+use crate::solve::Rows;
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
@@ -20,6 +20,19 @@ pub struct SweepOptions<'a> {
     pub counts: bool,
     /// The channel. Default the first.
     pub channel: usize,
+}
+
+impl SweepOptions<'_> {
+    /// What can be told before there is a family, of its range and channels.
+    ///
+    /// # Errors
+    /// `InvalidOption` for an ε outside of the range, and for the channel.
+    pub(crate) fn check(&self, range: (f64, f64), channels: usize) -> Result<(), OptionError> {
+        if self.channel >= channels {
+            return Err(OptionError::invalid("channel", "the number of a channel, from 0"));
+        }
+        self.epsilons.unwrap_or_default().iter().try_for_each(|&epsilon| check_epsilon(range, epsilon))
+    }
 }
 
 /// Norms and critical points of the smoothed field for each of several ε. Norms are of the field normalised to [0, 1] by the range of the
@@ -50,7 +63,7 @@ pub struct Sweep {
 /// So many ε by default: four in each decade of the default range, and the last one.
 const STEPS_PER_DECADE: f64 = 4.0;
 /// The vertices that are looked at together for several ε.
-const PIECE: usize = 128;
+const PIECE: usize = 64;
 
 impl Family {
     /// Norms and critical points along ε, at any resolution. Without counts, each ε takes a pass over the space; with them, as long as
@@ -59,16 +72,12 @@ impl Family {
     /// # Errors
     /// `InvalidOption` for an ε outside of the range, and for the channel; `Cancelled`; `OutOfMemory`.
     pub fn sweep(&self, options: &SweepOptions<'_>, watch: &Watch<'_>) -> Result<Sweep> {
+        options.check(self.range, self.spaces.len())?;
         let epsilons = match options.epsilons {
             Some(epsilons) => epsilons.to_vec(),
             None => logarithmic(self.range, STEPS_PER_DECADE),
         };
-        for &epsilon in &epsilons {
-            self.check(epsilon)?;
-        }
-        let Some(space) = self.spaces.get(options.channel) else {
-            return Err(OptionError::invalid("channel", "the number of a channel, from 0").into());
-        };
+        let space = &self.spaces[options.channel];
         let steps = [(Phase::Report, 1.0), (Phase::Report, if options.counts { 10.0 } else { 0.0 })];
         let mut plan = watch.plan(&steps);
         let n = self.field.operators.mesh.vertex_count();
@@ -146,21 +155,38 @@ impl Space {
         least: f64,
         watch: &Watch<'_>,
     ) -> Result<Vec<f64>> {
-        let coefficients: Vec<Vec<f64>> = epsilons.iter().map(|&epsilon| self.coefficients_of(epsilon)).collect();
-        let mut largest = vec![least; epsilons.len()];
-        let mut pieces = Pieces::new(self.basis(), PIECE);
-        while let Some((range, mut piece)) = pieces.next() {
-            watch.tick((2 * epsilons.len() * self.dimension() * range.len()) as u64)?;
-            for (largest, coefficients) in largest.iter_mut().zip(&coefficients) {
-                let x = piece.combination(coefficients);
-                for (i, x) in range.clone().zip(x) {
-                    let difference = (x - self.field()[i]).abs();
-                    if is_known[i] && difference > *largest {
-                        *largest = difference;
+        // Those of four ε side by side.
+        let mut groups = Vec::with_capacity(epsilons.len().div_ceil(4));
+        for four in epsilons.chunks(4) {
+            let mut group = vec![[0.0; 4]; self.dimension()];
+            for (j, &epsilon) in four.iter().enumerate() {
+                group.iter_mut().zip(self.coefficients_of(epsilon)).for_each(|(place, c)| place[j] = c);
+            }
+            groups.push(group);
+        }
+        let mut largest = vec![[least; 4]; groups.len()];
+        let (mut rows, mut known) = (Rows::default(), Vec::with_capacity(PIECE / 4));
+        for start in (0..is_known.len()).step_by(PIECE) {
+            let count = PIECE.min(is_known.len() - start);
+            watch.tick((epsilons.len() * self.dimension() * count / 4) as u64)?;
+            rows.gather(self.basis(), start, count);
+            // Nothing differs from NaN.
+            let value = |i: usize| if i < count && is_known[start + i] { self.field()[start + i] } else { f64::NAN };
+            known.clear();
+            known.extend((0..count).step_by(4).map(|i| [value(i), value(i + 1), value(i + 2), value(i + 3)]));
+            for (largest, group) in largest.iter_mut().zip(&groups) {
+                for (sums, f) in rows.combinations(group).zip(&known) {
+                    for (largest, x) in largest.iter_mut().zip(sums) {
+                        for i in 0..4 {
+                            let difference = (x[i] - f[i]).abs();
+                            *largest = if difference > *largest { difference } else { *largest };
+                        }
                     }
                 }
             }
         }
+        let mut largest = largest.into_flattened();
+        largest.truncate(epsilons.len());
         Ok(largest)
     }
 }

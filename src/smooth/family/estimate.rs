@@ -17,7 +17,9 @@ pub(super) const PER_DECADE: f64 = 24.0;
 /// the more so the more of the range lies beyond the shifts.
 fn safety(shifts: usize) -> f64 {
     match shifts {
-        0..=3 => 3.0,
+        // Where the space begins, its error is smooth in ε, and nothing hides between shifts.
+        0..=1 => 2.0,
+        2..=3 => 3.0,
         4..=6 => 2.0,
         _ => 1.5,
     }
@@ -40,7 +42,7 @@ pub(super) struct Calibration(f64);
 pub(super) fn logarithmic(range: (f64, f64), per_decade: f64) -> Vec<f64> {
     let (first, last) = (libm::log(range.0), libm::log(range.1));
     let steps = ((last - first) / LN_10 * per_decade).ceil().max(1.0) as usize;
-    let at = |k: usize| libm::exp(first + (last - first) * k as f64 / steps as f64);
+    let at = |k: usize| power_of_ten(libm::exp(first + (last - first) * k as f64 / steps as f64));
     (0..=steps)
         .map(|k| {
             if k == 0 {
@@ -52,6 +54,14 @@ pub(super) fn logarithmic(range: (f64, f64), per_decade: f64) -> Vec<f64> {
             }
         })
         .collect()
+}
+
+/// A number, or the power of ten that it is but for rounding: the nearest to that power that there is.
+fn power_of_ten(number: f64) -> f64 {
+    let exponent = libm::round(libm::log10(number));
+    let power = (0..exponent.abs() as u32).fold(1.0, |power, _| power * 10.0);
+    let power = if exponent < 0.0 { 1.0 / power } else { power };
+    if (number - power).abs() <= 1e-12 * power { power } else { number }
 }
 
 impl Calibration {

@@ -166,13 +166,19 @@ impl Family {
         whole(operators, about, &channels[channel], self.matrices.unknowns(), solution)
     }
 
-    pub(super) fn check(&self, epsilon: f64) -> Result<(), OptionError> {
-        if (self.range.0..=self.range.1).contains(&epsilon) {
-            return Ok(());
-        }
-        let expected = format!("a number from {:e} to {:e}, the range of the family", self.range.0, self.range.1);
-        Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected })
+    fn check(&self, epsilon: f64) -> Result<(), OptionError> {
+        check_epsilon(self.range, epsilon)
     }
+}
+
+/// # Errors
+/// `InvalidOption` for an ε outside of the range of a family.
+pub(super) fn check_epsilon(range: (f64, f64), epsilon: f64) -> Result<(), OptionError> {
+    if (range.0..=range.1).contains(&epsilon) {
+        return Ok(());
+    }
+    let expected = format!("a number from {:e} to {:e}, the range of the family", range.0, range.1);
+    Err(OptionError::InvalidOption { option: "epsilon".to_owned(), expected })
 }
 
 impl Field {

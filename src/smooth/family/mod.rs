@@ -1,13 +1,15 @@
 //! The solutions for all ε at once: a rational Krylov space.
 //!
 //! x(ε) = (S + εB)⁻¹εBf, with S = LᵀWL, lies for all ε in a range, to high accuracy, in the space that a few of these solutions
-//! and their first four derivatives by ε span. Each shift, as the ε of these solutions are called, takes one factor and a few solves
+//! and their first five derivatives by ε span. Each shift, as the ε of these solutions are called, takes one factor and a few solves
 //! with it. Projected onto the space, the system of any ε is a small one, which one diagonalisation solves for all of them
 //! \[Guettel13\].
 
+mod block;
 mod build;
 mod choose;
 mod curves;
+mod eigen;
 mod estimate;
 mod growth;
 mod lives;

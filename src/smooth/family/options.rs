@@ -35,7 +35,8 @@ impl<'a> FamilyMethod<'a> {
 /// Options of [`Smoother::family`](crate::smooth::Smoother::family).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FamilyOptions<'a> {
-    /// The method; its ε is where the space begins, and where it is good first. Default Tikhonov smoothing.
+    /// The method; its ε is where the space begins, and where it is good first; beyond the range, its nearer end. Default Tikhonov
+    /// smoothing.
     pub method: FamilyMethod<'a>,
     /// The least and the largest ε. Default 1e-6 to 1e4.
     pub range: (f64, f64),
@@ -108,7 +109,7 @@ fn wavelengths(mesh: &TriMesh) -> Option<(f64, f64)> {
 impl FamilyOptions<'_> {
     /// # Errors
     /// `InvalidOption`.
-    pub(super) fn check(&self) -> Result<(), OptionError> {
+    pub(crate) fn check(&self) -> Result<(), OptionError> {
         let (least, largest) = self.range;
         let is_range = least > 0.0 && least < largest && largest.is_finite() && largest / least <= WIDEST;
         if !is_range {

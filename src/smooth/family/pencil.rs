@@ -1,5 +1,6 @@
 //! The systems of all ε, projected onto a small space and brought into diagonal form.
 
+use super::eigen::eigen;
 use super::small::Symmetric;
 
 /// (S + εB) x = εBf on a space, in coordinates in which S and B are diagonal.
@@ -30,7 +31,7 @@ impl Pencil {
     ) -> Option<Self> {
         let (s, b) = (smooth.between(columns), data.between(columns));
         let whitened = s.plus(sigma, &b).inverse_root()?;
-        let (smoothness, rotations) = s.between(&whitened).eigen();
+        let (smoothness, rotations) = eigen(&s.between(&whitened));
         let size = loads.len();
         let mut vectors = Vec::with_capacity(columns.len());
         for rotation in &rotations {

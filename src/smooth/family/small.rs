@@ -1,15 +1,10 @@
 //! Small symmetric matrices, as large as the space of a family.
 
-use core::ops::Range;
-
 /// A symmetric matrix that grows by a row at a time; its lower triangle.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Symmetric {
     rows: Vec<Vec<f64>>,
 }
-
-/// Sweeps of rotations after which the largest such matrices are diagonal to rounding.
-const MOST_SWEEPS: usize = 30;
 
 impl Symmetric {
     pub(super) fn size(&self) -> usize {
@@ -27,16 +22,27 @@ impl Symmetric {
         self.rows.push(row);
     }
 
-    pub(super) fn at(&self, i: usize, j: usize) -> f64 {
-        self.rows[i.max(j)][i.min(j)]
-    }
-
-    fn set(&mut self, i: usize, j: usize, value: f64) {
-        self.rows[i.max(j)][i.min(j)] = value;
+    /// Adds rows, of which what is beyond the diagonal is left out.
+    pub(super) fn grow(&mut self, rows: Vec<Vec<f64>>) {
+        for mut row in rows {
+            row.truncate(self.size() + 1);
+            self.push(row);
+        }
     }
 
     pub(super) fn times(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.size()).map(|i| (0..self.size()).map(|j| self.at(i, j) * x[j]).sum()).collect()
+        let mut result = vec![0.0; self.size()];
+        for (i, row) in self.rows.iter().enumerate() {
+            // The row left of the diagonal is the column above it.
+            let Some((diagonal, before)) = row.split_last() else { continue };
+            let mut sum = diagonal * x[i];
+            for ((a, x_j), y) in before.iter().zip(x).zip(&mut result) {
+                sum += a * x_j;
+                *y += a * x[i];
+            }
+            result[i] += sum;
+        }
+        result
     }
 
     /// xᵀAx.
@@ -91,44 +97,10 @@ impl Symmetric {
         Some(columns)
     }
 
-    /// All eigenvalues, with their orthonormal eigenvectors, by Jacobi's rotations.
-    pub(super) fn eigen(mut self) -> (Vec<f64>, Vec<Vec<f64>>) {
+    /// All its entries, row by row.
+    pub(super) fn full(&self) -> Vec<Vec<f64>> {
         let size = self.size();
-        let mut vectors: Vec<Vec<f64>> =
-            (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-        for _ in 0..MOST_SWEEPS {
-            let mut is_diagonal = true;
-            for p in 0..size {
-                for q in p + 1..size {
-                    let (off, a, b) = (self.at(p, q), self.at(p, p), self.at(q, q));
-                    if off.abs() <= f64::EPSILON * f64::EPSILON.max((a * b).abs().sqrt()) {
-                        continue;
-                    }
-                    is_diagonal = false;
-                    let ratio = (b - a) / (2.0 * off);
-                    let tangent = ratio.signum() / (ratio.abs() + (1.0 + ratio * ratio).sqrt());
-                    let cosine = (1.0 + tangent * tangent).sqrt().recip();
-                    let sine = tangent * cosine;
-                    for k in (0..size).filter(|&k| k != p && k != q) {
-                        let (x, y) = (self.at(k, p), self.at(k, q));
-                        self.set(k, p, cosine * x - sine * y);
-                        self.set(k, q, sine * x + cosine * y);
-                    }
-                    self.set(p, p, a - tangent * off);
-                    self.set(q, q, b + tangent * off);
-                    self.set(p, q, 0.0);
-                    for k in 0..size {
-                        let (x, y) = (vectors[p][k], vectors[q][k]);
-                        vectors[p][k] = cosine * x - sine * y;
-                        vectors[q][k] = sine * x + cosine * y;
-                    }
-                }
-            }
-            if is_diagonal {
-                break;
-            }
-        }
-        ((0..size).map(|i| self.at(i, i)).collect(), vectors)
+        (0..size).map(|i| (0..size).map(|j| self.rows[i.max(j)][i.min(j)]).collect()).collect()
     }
 }
 
@@ -172,62 +144,19 @@ pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// x + Σ c v, four vectors at a time.
-pub(super) fn add_combination(x: &mut [f64], vectors: &[Vec<f64>], coefficients: &[f64]) {
-    add_part_of_combination(x, vectors, 0, coefficients);
-}
-
-/// The same for the elements of the vectors from `start` on.
 #[inline(never)]
-fn add_part_of_combination(x: &mut [f64], vectors: &[Vec<f64>], start: usize, coefficients: &[f64]) {
-    let part = start..start + x.len();
+pub(super) fn add_combination(x: &mut [f64], vectors: &[Vec<f64>], coefficients: &[f64]) {
+    let part = ..x.len();
     let mut blocks = vectors.chunks_exact(4);
     let mut shares = coefficients.chunks_exact(4);
     for (block, c) in (&mut blocks).zip(&mut shares) {
         let n = x.len();
-        let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|k| &block[k][part.clone()]);
+        let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|k| &block[k][part]);
         for i in 0..n {
             x[i] += (c[0] * v0[i] + c[1] * v1[i]) + (c[2] * v2[i] + c[3] * v3[i]);
         }
     }
     for (vector, c) in blocks.remainder().iter().zip(shares.remainder()) {
-        x.iter_mut().zip(&vector[part.clone()]).for_each(|(x, v)| *x += c * v);
-    }
-}
-
-/// Vectors cut into pieces of a few elements, which stay in the processor's cache while much is made from them.
-pub(super) struct Pieces<'a> {
-    vectors: &'a [Vec<f64>],
-    length: usize,
-    next: usize,
-}
-
-/// The same few elements of every vector.
-pub(super) struct Piece<'a> {
-    vectors: &'a [Vec<f64>],
-    range: Range<usize>,
-    sum: Vec<f64>,
-}
-
-impl<'a> Pieces<'a> {
-    pub(super) fn new(vectors: &'a [Vec<f64>], length: usize) -> Self {
-        Self { vectors, length, next: 0 }
-    }
-
-    /// The next elements: which they are, and what is made from them.
-    pub(super) fn next(&mut self) -> Option<(Range<usize>, Piece<'a>)> {
-        let count = self.vectors.first().map_or(0, Vec::len);
-        let range = self.next..count.min(self.next + self.length);
-        self.next = range.end;
-        let piece = Piece { vectors: self.vectors, range: range.clone(), sum: vec![0.0; range.len()] };
-        (!range.is_empty()).then_some((range, piece))
-    }
-}
-
-impl Piece<'_> {
-    /// The elements of Σ c v.
-    pub(super) fn combination(&mut self, coefficients: &[f64]) -> &[f64] {
-        self.sum.fill(0.0);
-        add_part_of_combination(&mut self.sum, self.vectors, self.range.start, coefficients);
-        &self.sum
+        x.iter_mut().zip(&vector[part]).for_each(|(x, v)| *x += c * v);
     }
 }

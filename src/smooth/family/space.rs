@@ -1,10 +1,12 @@
 //! The space in which the solutions for all ε lie, to high accuracy, for one channel.
 
+use super::block::Block;
 use super::pencil::Pencil;
-use super::small::{DEPENDENT, Symmetric, add_combination, dot, orthonormal};
+use super::small::{Symmetric, add_combination, dot, orthonormal};
 use crate::error::{Cancelled, Result, SmoothError};
+use crate::smooth::data_term::Mass;
 use crate::smooth::system::Matrices;
-use crate::solve::{norm, product, transposed_product};
+use crate::solve::dot_products;
 use crate::support::watch::Watch;
 
 /// What a vector of the space was made as.
@@ -19,7 +21,7 @@ pub(super) enum Kind {
 }
 
 /// How many derivatives each shift gives: the solves for them are cheap beside its factor.
-pub(super) const DERIVATIVES: usize = 4;
+pub(super) const DERIVATIVES: usize = 5;
 
 /// A growing space with the systems projected onto it.
 ///
@@ -101,95 +103,59 @@ impl Space {
         self.basis.len()
     }
 
-    /// Adds a vector to the space, unless it lies there already.
+    /// Adds vectors to the space, but for those that lie there already.
     pub(super) fn add(
         &mut self,
         kind: Kind,
-        mut vector: Vec<f64>,
+        vectors: Vec<Vec<f64>>,
         matrices: &Matrices,
         watch: &Watch<'_>,
     ) -> Result<(), Cancelled> {
-        let size = norm(&vector);
-        if size == 0.0 || !size.is_finite() {
-            return Ok(());
-        }
-        vector.iter_mut().for_each(|x| *x /= size);
-        let mut coordinates = vec![0.0; self.basis.len()];
-        let mut start = None;
-        // Twice is enough for orthogonality to rounding.
-        for _ in 0..2 {
-            let (image, mass) = (image(matrices, &vector), matrices.mass().times(&vector));
-            start.get_or_insert(self.size(&vector, &image, &mass));
-            let shares = self.shares(&image, &mass, watch)?;
-            let opposite: Vec<f64> = shares.iter().map(|share| -share).collect();
-            add_combination(&mut vector, &self.basis, &opposite);
-            coordinates.iter_mut().zip(&shares).for_each(|(sum, share)| *sum += share);
-        }
-        let (mut image, mut mass) = (image(matrices, &vector), matrices.mass().times(&vector));
-        let rest = self.size(&vector, &image, &mass);
-        if rest.is_nan() || rest <= DEPENDENT * start.unwrap_or(0.0) {
-            return Ok(());
-        }
-        for values in [&mut vector, &mut image, &mut mass] {
-            values.iter_mut().for_each(|x| *x /= rest);
-        }
-        coordinates.push(rest);
-        self.added.push((kind, coordinates));
-        self.basis.push(vector);
-        self.images.push(image);
-        self.measure(matrices, &mass, watch)
+        let mut block = Block::new(vectors, matrices, self.sigma);
+        let coordinates = block.orthonormalize(&self.basis, &self.images, watch)?;
+        self.added.extend(coordinates.into_iter().map(|coordinates| (kind, coordinates)));
+        let Block { vectors, images, masses, .. } = block;
+        self.basis.extend(vectors);
+        self.images.extend(images);
+        self.measure(matrices, &masses, watch)
     }
 
-    /// ‖v‖ in the norm of S + σB.
-    fn size(&self, vector: &[f64], image: &[f64], mass: &[f64]) -> f64 {
-        (dot(image, image) + self.sigma * dot(vector, mass)).max(0.0).sqrt()
-    }
-
-    /// What a vector has of each basis vector.
-    fn shares(&self, image: &[f64], mass: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
-        let mut shares = Vec::with_capacity(self.basis.len());
-        for (other, other_image) in self.basis.iter().zip(&self.images) {
-            watch.tick(4 * mass.len() as u64)?;
-            shares.push(dot(other_image, image) + self.sigma * dot(other, mass));
-        }
-        Ok(shares)
-    }
-
-    /// The last basis vector's rows of all the small matrices.
-    fn measure(&mut self, matrices: &Matrices, mass: &[f64], watch: &Watch<'_>) -> Result<(), Cancelled> {
-        let (Some(vector), Some(image)) = (self.basis.last(), self.images.last()) else { return Ok(()) };
-        let plain_image: Option<Vec<f64>> =
-            matrices.weights().map(|weights| image.iter().zip(weights).map(|(y, w)| y / w.sqrt()).collect());
-        let laplacian_image = plain_image.as_ref().unwrap_or(image);
-        let row = |others: &[Vec<f64>], values: &[f64]| -> Result<Vec<f64>, Cancelled> {
-            watch.tick(2 * (others.len() * values.len()) as u64)?;
-            Ok(others.iter().map(|other| dot(other, values)).collect())
+    /// The last basis vectors' rows of all the small matrices.
+    fn measure(&mut self, matrices: &Matrices, masses: &[Vec<f64>], watch: &Watch<'_>) -> Result<(), Cancelled> {
+        let before = self.basis.len() - masses.len();
+        let (vectors, images) = (&self.basis[before..], &self.images[before..]);
+        let data = dot_products(&self.basis, masses, watch)?;
+        let is_identity = matches!(matrices.mass(), Mass::Identity);
+        self.plain.grow(if is_identity { data.clone() } else { dot_products(&self.basis, vectors, watch)? });
+        self.data.grow(data);
+        self.smooth.grow(dot_products(&self.images, images, watch)?);
+        let scaled = |vectors: &[Vec<f64>], by: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
+            vectors.iter().map(|vector| vector.iter().enumerate().map(|(i, x)| x * by(i)).collect()).collect()
         };
-        self.smooth.push(row(&self.images, image)?);
-        self.data.push(row(&self.basis, mass)?);
-        self.plain.push(row(&self.basis, vector)?);
-        let mut energies = row(&self.basis, laplacian_image)?;
+        let plain_images = matrices.weights().map(|weights| scaled(images, &|i| 1.0 / weights[i].sqrt()));
+        let mut energies = dot_products(&self.basis, plain_images.as_deref().unwrap_or(images), watch)?;
         if !matrices.is_symmetric() {
             // Only the symmetric part of L makes energies.
-            let transposed = row(&self.images, vector)?;
-            energies.iter_mut().zip(transposed).for_each(|(a, b)| *a = 0.5 * (*a + b));
+            let transposed = dot_products(&self.images, vectors, watch)?;
+            let pairs = energies.iter_mut().flatten().zip(transposed.into_iter().flatten());
+            pairs.for_each(|(a, b)| *a = 0.5 * (*a + b));
         }
-        self.sobolev.push(energies);
-        if let (Some(laplacian), Some(y)) = (&mut self.laplacian, &plain_image)
-            && let Some(weights) = matrices.weights()
-        {
-            // √W L v over √W is L v; its products with other √W L u need the same division.
-            let scaled: Vec<f64> = y.iter().zip(weights).map(|(y, w)| y / w.sqrt()).collect();
-            laplacian.push(row(&self.images, &scaled)?);
+        self.sobolev.grow(energies);
+        drop(plain_images);
+        if let (Some(laplacian), Some(weights)) = (&mut self.laplacian, matrices.weights()) {
+            // The images are √W·L times the vectors: both sides are divided by the root.
+            laplacian.grow(dot_products(&self.images, &scaled(images, &|i| 1.0 / weights[i]), watch)?);
+        }
+        for vector in vectors {
+            self.loads.push(dot(vector, &self.field_mass));
         }
         if let (Some(counted_plain), Some(counted)) = (&mut self.counted_plain, &self.counted) {
-            let scaled: Vec<f64> = vector.iter().zip(counted).map(|(x, k)| x * k).collect();
-            counted_plain.push(row(&self.basis, &scaled)?);
-            self.counted_loads.push(dot(&scaled, &self.field));
+            let scaled = scaled(vectors, &|i| counted[i]);
+            self.counted_loads.extend(scaled.iter().map(|vector| dot(vector, &self.field)));
+            counted_plain.grow(dot_products(&self.basis, &scaled, watch)?);
         } else {
-            self.counted_loads.push(dot(vector, &self.field));
+            self.counted_loads.extend(vectors.iter().map(|vector| dot(vector, &self.field)));
         }
-        self.loads.push(dot(vector, &self.field_mass));
         Ok(())
     }
 
@@ -339,14 +305,4 @@ impl Space {
 pub(super) enum Which {
     Full,
     Partial,
-}
-
-/// √W·Lx.
-fn image(matrices: &Matrices, x: &[f64]) -> Vec<f64> {
-    let laplacian = matrices.laplacian();
-    let mut image = if matrices.is_symmetric() { transposed_product(laplacian, x) } else { product(laplacian, x) };
-    if let Some(weights) = matrices.weights() {
-        image.iter_mut().zip(weights).for_each(|(y, w)| *y *= w.sqrt());
-    }
-    image
 }

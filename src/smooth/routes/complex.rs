@@ -72,8 +72,13 @@ fn product(
 ) -> Result<Vec<Iterate>, SolveError> {
     let (laplacian, n) = (task.problem.matrix, shift.len());
     let residual = |c: usize, z: &[f64]| {
-        let (re, im) = z.split_at(n);
         let f: &[f64] = &task.right_hand_sides[c].field;
+        if z.is_empty() {
+            let mut rest: Vec<f64> = shift.iter().zip(f).map(|(d, f)| d * f).collect();
+            rest.resize(2 * n, 0.0);
+            return rest;
+        }
+        let (re, im) = z.split_at(n);
         let (real, imaginary) = (transposed_product(laplacian, re), transposed_product(laplacian, im));
         let mut rest = Vec::with_capacity(2 * n);
         for i in 0..n {

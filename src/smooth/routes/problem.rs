@@ -166,8 +166,12 @@ impl<'a> Problem<'a> {
         transposed_product(self.matrix, &image)
     }
 
-    /// What the right-hand side is more than the matrix times x.
+    /// What the right-hand side is more than the matrix times x; for an empty x all of it.
     pub(in crate::smooth) fn residual(&self, side: &RightHandSide, x: &[f64]) -> Vec<f64> {
+        if let (Some(data), true, true) = (self.data(), x.is_empty(), side.offset.is_empty()) {
+            let epsilon = data.scaled_epsilon();
+            return data.mass.times(&side.field).into_iter().map(|b| epsilon * b).collect();
+        }
         let mut residual = self.smoothing(x, &side.offset);
         match self.data() {
             Some(data) => {

@@ -36,7 +36,7 @@ pub(super) struct Refinement<'a> {
     pub(super) inverse_norm: Option<f64>,
     /// About how long a residual takes, in ticks.
     pub(super) ticks: u64,
-    /// The residual of a right-hand side at an approximate solution.
+    /// The residual of a right-hand side at an approximate solution; at zero, which may be empty, it is the right-hand side itself.
     pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
     pub(super) solve: &'a mut Solve<'a>,
@@ -64,7 +64,7 @@ pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iter
         watch.tick(ticks * open.len() as u64)?;
         let mut residuals = Vec::with_capacity(open.len() * n);
         open.retain(|&c| {
-            let rest = residual(c, &iterates[c].x);
+            let rest = if tolerance.is_finite() { residual(c, &iterates[c].x) } else { residual(c, &[]) };
             let error = inverse_norm.map_or(f64::INFINITY, |inverse| inverse * norm(&rest));
             let is_open = step == 0 || error.is_nan() || error > PROVEN * norm(&iterates[c].x);
             if is_open {

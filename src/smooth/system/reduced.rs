@@ -137,7 +137,7 @@ impl ReducedSystem {
         let problem = problem(&self.matrix, &self.equations);
         let task = Task { problem, key: &FactorKey::Plain, right_hand_sides: &right_hand_sides, settings };
         let answer = self.routes.solve(&task, stages).map_err(|error| on_mesh(&self.free, error))?;
-        Ok(solved(&problem, &right_hand_sides, answer, stages.watch)?)
+        Ok(solved(&problem, &right_hand_sides, answer, settings.accuracy, stages.watch)?)
     }
 
     /// c: what L makes of the fixed values alone.

@@ -171,7 +171,7 @@ impl RegularizedSystem {
         }
         let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &right_hand_sides, settings };
         let answer = routes.solve(&task, stages).map_err(|error| on_mesh(unknowns, error))?;
-        Ok(solved(&problem, &right_hand_sides, answer, stages.watch)?)
+        Ok(solved(&problem, &right_hand_sides, answer, settings.accuracy, stages.watch)?)
     }
 }
 

@@ -3,8 +3,8 @@
 
 use nalgebra::Complex;
 
-use super::lanes::{Doubles, Lanes, Singles, sum_products};
 use super::scalar::{LaneBlock, Scalar};
+use crate::solve::lanes::{Doubles, Lanes, Singles, sum_products};
 
 /// About the root of the smallest normal number in single precision.
 const TRACE: f32 = 1e-19;

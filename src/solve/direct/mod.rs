@@ -3,7 +3,6 @@
 mod cholesky;
 mod front;
 mod lane_block;
-mod lanes;
 mod multifrontal;
 mod numbers;
 mod scalar;

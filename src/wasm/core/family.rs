@@ -11,7 +11,7 @@ use crate::smooth::{ExtremumLife, Family, Sweep, SweepOptions};
 use crate::wasm::shared::answer::{Answer, array};
 use crate::wasm::shared::arrays::floats;
 use crate::wasm::shared::error::Thrown;
-use crate::wasm::shared::record::read;
+use crate::wasm::shared::record::{Record, read};
 
 /// A family in wasm memory.
 #[wasm_bindgen]
@@ -22,11 +22,25 @@ pub struct RawFamily {
 #[wasm_bindgen]
 #[allow(missing_docs, reason = "the public documentation is in src/js/types/")]
 impl RawSmoother {
-    /// The fields of all ε.
-    pub fn family(&mut self, values: &Float64Array, options: &JsValue) -> Result<RawFamily, Thrown> {
+    /// The fields of all ε. What a sweep will be asked for, if there is to be one, is looked at first.
+    pub fn family(
+        &mut self,
+        values: &Float64Array,
+        options: &JsValue,
+        sweep: Option<Object>,
+        epsilons: Option<Float64Array>,
+    ) -> Result<RawFamily, Thrown> {
         let operator = self.smoother().options().operator;
         let (choice, watching) =
             read("", options, |record| (FamilyChoice::read(record, operator), Watching::read(record)))?;
+        if let Some(sweep) = sweep {
+            let (counts, channel) = read("", &sweep, of_sweep)?;
+            let epsilons = epsilons.map(|epsilons| floats(&epsilons)).transpose()?;
+            let asked = SweepOptions { epsilons: epsilons.as_deref(), counts, channel };
+            choice.options().check()?;
+            // That there are no channels at all is told where the values are read.
+            asked.check(choice.options().range, choice.channels().max(1))?;
+        }
         let values = floats(values)?;
         let family = watching.run(|watch| self.smoother().family(&values, &choice.options(), watch));
         Ok(RawFamily { family: family.map_err(from_rule)? })
@@ -70,10 +84,7 @@ impl RawFamily {
     }
 
     pub fn sweep(&self, epsilons: Option<Float64Array>, options: &JsValue) -> Result<Object, Thrown> {
-        let (counts, channel, watching) = read("", options, |record| {
-            let channel = record.integer("channel").unwrap_or_default() as usize;
-            (record.boolean("counts").unwrap_or_default(), channel, Watching::read(record))
-        })?;
+        let ((counts, channel), watching) = read("", options, |record| (of_sweep(record), Watching::read(record)))?;
         let epsilons = epsilons.map(|epsilons| floats(&epsilons)).transpose()?;
         let options = SweepOptions { epsilons: epsilons.as_deref(), counts, channel };
         Ok(sweep(&watching.run(|watch| self.family.sweep(&options, watch))?)?)
@@ -92,6 +103,11 @@ impl RawFamily {
         })?;
         Ok(lives(&watching.run(|watch| self.family.lives(channel, per_decade, watch))?)?)
     }
+}
+
+/// Whether critical points are counted, and the channel.
+fn of_sweep(record: &Record) -> (bool, usize) {
+    (record.boolean("counts").unwrap_or_default(), record.integer("channel").unwrap_or_default() as usize)
 }
 
 fn sweep(sweep: &Sweep) -> Result<Object, crate::error::OutOfMemory> {

@@ -48,7 +48,7 @@ pub(crate) const RULES: Rules = Rules {
         ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
-        ("solve", &[&["matrix"], &["ordering"], &["direct"], &["iterative"], &["mod"]]),
+        ("solve", &[&["matrix", "lanes"], &["vectors", "ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
             "solve/ordering",
             &[
@@ -67,7 +67,7 @@ pub(crate) const RULES: Rules = Rules {
                 &["tree"],
                 &["supernodes"],
                 &["symbolic"],
-                &["scalar", "lanes"],
+                &["scalar"],
                 &["lane_block"],
                 &["numbers"],
                 &["front"],
@@ -143,6 +143,7 @@ pub(crate) const RULES: Rules = Rules {
             "smooth/family",
             &[
                 &["small", "traces"],
+                &["block", "eigen"],
                 &["pencil"],
                 &["space"],
                 &["estimate", "reach"],

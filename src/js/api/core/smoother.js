@@ -61,22 +61,19 @@ export class Smoother {
   }
 
   family(values, options) {
-    const given = toOptions(options);
-    if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
-    if (Array.isArray(given?.epsilonRange)) given.epsilonRange = [...given.epsilonRange];
-    const numbers = toNumbers(values, 'values');
-    const settings = withConstraints(this.#watching(given), this.#vertexCount);
-    const raw = watched(settings, (settings) => this.#handle.useAlone((raw) => raw.family(numbers, settings)));
-    return familyOf(new Handle('SmoothingFamily', this.#handle.instance, raw), this.#handle, this.#onProgress);
+    return this.#family(values, options);
   }
 
   sweep(values, options) {
     const { epsilons, counts, channel, ...rest } = this.#watching(toOptions(options)) ?? {};
     const numbers = isGiven(epsilons) ? toNumbers(epsilons, 'epsilons') : undefined;
-    const family = this.family(values, { ...rest, onProgress: within(0, SHARE_OF_FAMILY, rest.onProgress) });
+    // What is asked of the family is refused before it is made.
+    const asked = { counts, channel };
+    const making = { ...rest, onProgress: within(0, SHARE_OF_FAMILY, rest.onProgress) };
+    const family = this.#family(values, making, asked, numbers);
     try {
       const onProgress = within(SHARE_OF_FAMILY, 1, rest.onProgress);
-      return family.sweep({ epsilons: numbers, counts, channel, onProgress });
+      return family.sweep({ epsilons: numbers, ...asked, onProgress });
     } finally {
       family.free();
     }
@@ -84,6 +81,19 @@ export class Smoother {
 
   free() {
     this.#handle.free();
+  }
+
+  /** A family, of which a sweep is asked afterwards or nothing. */
+  #family(values, options, asked, epsilons) {
+    const given = toOptions(options);
+    if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
+    if (Array.isArray(given?.epsilonRange)) given.epsilonRange = [...given.epsilonRange];
+    const numbers = toNumbers(values, 'values');
+    const settings = withConstraints(this.#watching(given), this.#vertexCount);
+    const raw = watched(settings, (settings) =>
+      this.#handle.useAlone((raw) => raw.family(numbers, settings, asked, epsilons)),
+    );
+    return familyOf(new Handle('SmoothingFamily', this.#handle.instance, raw), this.#handle, this.#onProgress);
   }
 
   /** The options of a call with what is to be called back: their own, or the smoother's. */

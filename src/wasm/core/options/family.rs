@@ -50,6 +50,14 @@ impl FamilyChoice {
         }
     }
 
+    /// The number of channels.
+    pub(in crate::wasm::core) fn channels(&self) -> usize {
+        match self.options().method {
+            FamilyMethod::LeastSquares(options) => options.channels,
+            FamilyMethod::Tikhonov(options) => options.channels,
+        }
+    }
+
     pub(in crate::wasm::core) fn options(&self) -> FamilyOptions<'_> {
         let defaults = FamilyOptions::default();
         let method = match self.smoothing.method() {

@@ -41,7 +41,7 @@ mod registers {
     macro_rules! pair {
         ($name:ident, $number:ident, $lanes:literal, $splat:ident, $add:ident, $sub:ident, $mul:ident, $abs:ident, $lt:ident) => {
             #[derive(Clone, Copy, Debug)]
-            pub(in super::super) struct $name(v128, v128);
+            pub(in crate::solve) struct $name(v128, v128);
 
             impl Lanes for $name {
                 type Number = $number;
@@ -109,7 +109,7 @@ mod registers {
     macro_rules! lanes {
         ($name:ident, $number:ident, $lanes:literal: $($i:literal)*) => {
             #[derive(Clone, Copy, Debug)]
-            pub(in super::super) struct $name([$number; $lanes]);
+            pub(in crate::solve) struct $name([$number; $lanes]);
 
             impl Lanes for $name {
                 type Number = $number;
