@@ -64,6 +64,15 @@ stage_error! {
             /// `minima` or `maxima`.
             kind: &'static str,
         } => "vertices {first} and {second} are neighbours, and cannot both be {kind}; choose one of them",
+        /// More extrema are wanted than a field has.
+        TooFewExtrema {
+            /// `minima` or `maxima`.
+            kind: &'static str,
+            /// How many are wanted.
+            wanted: usize,
+            /// How many there are.
+            found: usize,
+        } => "{wanted} {kind} are wanted, but the field whose persistence chooses has {found}; a larger epsilon leaves the smoothed field more of them, and the input may have more",
         /// The values that are to be kept leave no room for a field with the chosen extrema.
         Infeasible {
             /// A vertex from which steps lead up.

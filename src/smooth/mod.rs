@@ -323,7 +323,7 @@ impl Smoother {
     ///
     /// # Errors
     /// Those of [`Smoother::tikhonov`] or [`Smoother::least_squares`]; `IndexOutOfBounds`, `NotAnExtremum`, `ConflictingExtremum`,
-    /// `AdjacentExtrema` for what is chosen; `Unconstrained` where a component of the mesh has no chosen minimum or maximum; `Infeasible`
+    /// `AdjacentExtrema`, `TooFewExtrema` for what is chosen; `Unconstrained` where a component of the mesh has no chosen minimum or maximum; `Infeasible`
     /// where kept values or the range leave no room; `ConstantField`; `InapplicableOption` for several channels and for missing values
     /// that are to be filled in. `NotConverged` returns no field.
     ///

@@ -52,7 +52,7 @@ pub(crate) fn check(mesh: &TriMesh, smoothed: &Smoothed) {
     }
     if report.route == PrescribeRoute::InteriorPoint {
         assert!(report.least_slack >= 0.9, "slack {}", report.least_slack);
-        assert!(report.gap <= 1e-5, "gap {}", report.gap);
+        assert!(report.gap <= 1e-6, "gap {}", report.gap);
         let single: Vec<f64> = smoothed.values.iter().map(|&x| f64::from(x as f32)).collect();
         if report.margin >= 1e-6 && smoothed.values.iter().all(|x| x.abs() < 2.0) {
             assert_eq!(extrema(mesh, &single), [minima, maxima], "extrema in single precision");
@@ -246,7 +246,7 @@ fn options_hold_what_they_promise() {
         let [low, high] = [f64::min, f64::max].map(|of| field.iter().copied().fold(field[0], of));
         let range = high - low;
         let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).expect("a smoother");
-        let chosen = Extrema::Most { minima: 4, maxima: 5, of: PersistenceOf::Smoothed };
+        let chosen = Extrema::Most { minima: 4, maxima: 5, of: PersistenceOf::Input };
         let plain = PrescribeOptions { extrema: chosen, complete: true, ..PrescribeOptions::default() };
 
         let free = smoother.prescribe(&field, &plain).expect("a field");
@@ -348,6 +348,10 @@ fn bad_choices_are_told_by_code_and_vertex() {
             "Unconstrained",
             PrescribeOptions { extrema: Extrema::Most { minima: 0, maxima: 1, of: PersistenceOf::Input }, ..plain },
         ),
+        (
+            "TooFewExtrema",
+            PrescribeOptions { extrema: Extrema::Most { minima: 1, maxima: 2, of: PersistenceOf::Input }, ..plain },
+        ),
         ("InvalidOption", PrescribeOptions { margin: 0.0, ..plain }),
         ("InvalidOption", PrescribeOptions { margin: f64::NAN, ..plain }),
         ("InvalidOption", PrescribeOptions { margin: 0.5, ..plain }),
@@ -408,7 +412,7 @@ fn least_squares_and_finite_elements_have_prescribed_extrema_too() {
     let mesh = shapes::sphere(4).expect("a sphere");
     let field = noisy(&mesh, 9);
     let constrained: Vec<u32> = (0..field.len() as u32).step_by(7).collect();
-    let extrema = Extrema::Most { minima: 2, maxima: 3, of: PersistenceOf::Smoothed };
+    let extrema = Extrema::Most { minima: 2, maxima: 3, of: PersistenceOf::Input };
     let constraints =
         Constraints { features: morse_smooth::field::Features::Vertices(&constrained), ..Constraints::default() };
     let functional = Functional::LeastSquares(LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() });
@@ -461,7 +465,7 @@ fn extreme_meshes_and_scales() {
             .collect();
         let mesh = crate::support::mesh(&positions, &triangles);
         let field = noisy(&mesh, u64::from(valence));
-        for (minima, maxima) in [(vec![0], vec![1]), (vec![5, 100], vec![7, 0])] {
+        for (minima, maxima) in [(vec![0], vec![1]), (vec![5, 100], vec![0])] {
             let options = PrescribeOptions {
                 extrema: Extrema::Named { minima: &minima, maxima: &maxima },
                 ..PrescribeOptions::default()
@@ -514,7 +518,11 @@ fn stopped_work_leaves_no_trace() {
             if asked > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let stopped = smoother.apply(&field, &method, &Watch::new(&mut stop));
-        assert_eq!((stopped.map_err(|error| error.code()).err(), asked), (Some("Cancelled"), last + 1));
+        // What was analysed once is not analysed again.
+        if asked > last {
+            assert_eq!(stopped.map_err(|error| error.code()).err(), Some("Cancelled"));
+            assert_eq!(asked, last + 1);
+        }
     }
     let found = smoother.apply(&field, &method, &Watch::none()).expect("a field");
     assert!(found.values.iter().zip(&expected.values).all(|(a, b)| a.to_bits() == b.to_bits()));

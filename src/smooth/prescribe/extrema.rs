@@ -28,7 +28,8 @@ pub enum Extrema<'a> {
         /// Whose extrema.
         of: PersistenceOf,
     },
-    /// So many of the most persistent ones. The lowest and the highest vertex of every component of the mesh come first.
+    /// So many of the most persistent ones, an error where there are fewer. The lowest and the highest vertex of every component of the
+    /// mesh come first.
     Most {
         /// How many minima.
         minima: usize,
@@ -67,7 +68,7 @@ pub(super) struct Chosen {
 /// Chooses.
 ///
 /// # Errors
-/// `IndexOutOfBounds`, `NotAnExtremum`, `InvalidOption`; those of [`Chosen::check`].
+/// `IndexOutOfBounds`, `NotAnExtremum`, `InvalidOption`, `TooFewExtrema`; those of [`Chosen::check`].
 pub(super) fn chosen(
     extrema: &Extrema<'_>,
     complete: bool,
@@ -103,6 +104,13 @@ pub(super) fn chosen(
                 [0, 1].map(|kind| wanted[kind].saturating_sub(essential[kind])),
                 diagram.pairs.len(),
             );
+            for (kind, wanted, found) in
+                [("minima", minima, chosen.minima.len()), ("maxima", maxima, chosen.maxima.len())]
+            {
+                if found < wanted {
+                    return Err(SmoothError::TooFewExtrema { kind, wanted, found }.into());
+                }
+            }
             chosen.minima.truncate(minima.max(if complete { essential[0] } else { 0 }));
             chosen.maxima.truncate(maxima.max(if complete { essential[1] } else { 0 }));
             chosen

@@ -16,7 +16,7 @@ const MOST_ITERATIONS: usize = 60;
 /// So many are usual; progress is told as if there were so many.
 const USUAL_ITERATIONS: usize = 9;
 /// The duality gap that is left, relative to the energy.
-const GAP: f64 = 1e-5;
+const GAP: f64 = 1e-6;
 /// What the steps may lack of the slacks, relative to the least margin, and the gradient of what balances it, relative to it.
 const PRIMAL: f64 = 0.1;
 const DUAL: f64 = 1e-6;
