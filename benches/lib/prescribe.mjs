@@ -7,7 +7,7 @@ import { loadWithMemory } from './memory-size.mjs';
 /** Which extrema there shall be: easy ones, more of them, and those of the noise. */
 export const SETS = {
   smoothed: { from: 'persistence', threshold: 0.05 },
-  most: { from: 'persistence', minima: 8, maxima: 8 },
+  more: { from: 'persistence', threshold: 0.001 },
   input: { from: 'persistence', minima: 8, maxima: 8, of: 'input' },
 };
 

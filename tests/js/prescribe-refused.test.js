@@ -66,6 +66,19 @@ describe('extrema that cannot be', () => {
     expectError(() => call({ from: 'persistence', minima: 1, maxima: 2 }), 'Unconstrained');
   });
 
+  it('are more than there are', () => {
+    const count = (kind, wanted) => ({ kind, wanted, found: { minima, maxima }[kind].length });
+    const more = (minima, maxima) => ({ from: 'persistence', of: 'input', minima, maxima });
+    expectRefused({ epsilon, extrema: more(1000, 1) }, 'TooFewExtrema', count('minima', 1000));
+    expectRefused(
+      { epsilon, extrema: more(1, maxima.length + 1) },
+      'TooFewExtrema',
+      count('maxima', maxima.length + 1),
+    );
+    const all = new Smoother(make(shape)).prescribe(f, { epsilon, extrema: more(minima.length, maxima.length) });
+    expect([...all.minima]).toEqual(minima);
+  });
+
   it('are those of values that contradict them', () => {
     const smoother = new Smoother(make(shape));
     // The highest vertex cannot be the only minimum beside a lower maximum, with the values they have.

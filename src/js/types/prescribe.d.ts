@@ -36,7 +36,7 @@ export interface PersistentExtrema extends ExtremaByPersistence {
   maxima?: undefined;
 }
 
-/** So many of the most persistent ones, or as many as there are. The lowest and the highest vertex of every component come first. */
+/** So many of the most persistent ones (`TooFewExtrema` where there are fewer). The lowest and the highest vertex of every component come first. */
 export interface MostPersistentExtrema extends ExtremaByPersistence {
   minima: number;
   maxima: number;

@@ -250,8 +250,8 @@ export class Smoother {
    * Classification has confirmed its extrema when it is returned.
    *
    * @throws as {@link Smoother.tikhonov}, with constraints as {@link Smoother.leastSquares}; `IndexOutOfBounds` (`index`),
-   *   `NotAnExtremum` (`vertex`), `ConflictingExtremum` (`vertex`: a minimum and a maximum), `AdjacentExtrema` (`first`, `second`, `kind`)
-   *   for the extrema; `Unconstrained` (`component`, `vertex`) for a component without a minimum or a maximum; `Infeasible` (`from`,
+   *   `NotAnExtremum` (`vertex`), `ConflictingExtremum` (`vertex`: a minimum and a maximum), `AdjacentExtrema` (`first`, `second`, `kind`),
+   *   `TooFewExtrema` (`kind`, `wanted`, `found`) for the extrema; `Unconstrained` (`component`, `vertex`) for a component without a minimum or a maximum; `Infeasible` (`from`,
    *   `to`) where kept values, the range or the prominence contradict each other; `ConstantField`; `InapplicableOption` for several
    *   channels and for `missing: "fill"`; `NotConverged`
    */
