@@ -318,7 +318,7 @@ describe('what can be asked for', () => {
     const mesh = make(shape);
     const values = f.slice();
     for (const v of [40, 41, 200]) values[v] = NaN;
-    for (const extrema of [input, { from: 'persistence', minima: 3, maxima: 2 }]) {
+    for (const extrema of [input, { from: 'persistence', threshold: 0.01 }]) {
       const options = { epsilon, extrema, missing: 'omit' };
       const result = new Smoother(mesh).prescribe(values, options);
       const part = mesh.withoutMissing(values);
