@@ -155,7 +155,7 @@ impl<'a> Method<'a> {
     ///
     /// # Errors
     /// `InvalidOption`, `InapplicableOption`.
-    fn check(&self, smoother: SmootherOptions) -> Result<(), OptionError> {
+    pub(super) fn check(&self, smoother: SmootherOptions) -> Result<(), OptionError> {
         match self {
             Self::Tikhonov(options) => tikhonov::check(options, smoother)?,
             Self::Interpolate(_) => {}

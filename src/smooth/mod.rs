@@ -394,6 +394,8 @@ impl Smoother {
         rule: EpsilonRule,
         watch: &Watch<'_>,
     ) -> Result<Smoothed> {
+        // What is wrong with the options is told before the long work.
+        method.with_epsilon(1.0).check(self.operators.options)?;
         let mut plan = watch.plan(&[(Phase::Factorization, 9.0), (Phase::Factorization, 1.0)]);
         plan.begin(0)?;
         let options = FamilyOptions::for_choice(method, rule, &self.operators)?;

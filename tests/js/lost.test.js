@@ -48,6 +48,7 @@ describe('an instance that fails', () => {
       () => family.dimension,
       () => family.grow(),
       () => smoother.sweep(values),
+      () => smoother.prescribe(values, { epsilon: 0.1 }),
       () => new Smoother(mesh),
       () => smooth(mesh, values, { epsilon: 0.1 }),
       () => mesh.positions(),

@@ -87,6 +87,7 @@ const calls = {
   'interpolate, biharmonic': (mesh) =>
     smooth(mesh, field, { method: 'interpolate', constraints, energy: 'biharmonic' }),
   leastSquares: (mesh) => smooth(mesh, field, { epsilon: 1, constraints }),
+  prescribe: (mesh) => smooth(mesh, field, { method: 'prescribe', epsilon: 0.1 }),
   family: (mesh) =>
     freed(new Smoother(mesh), (smoother) =>
       freed(smoother.family(field, loose), (family) => {

@@ -32,6 +32,7 @@ const smoothings = {
   tikhonov: (smoother, more) => smoother.tikhonov(values, { epsilon: 0.1, ...more }),
   interpolate: (smoother, more) => smoother.interpolate(values, { constraints, ...more }),
   leastSquares: (smoother, more) => smoother.leastSquares(values, { epsilon: 1, constraints, ...more }),
+  'prescribe, preview': (smoother, more) => smoother.prescribe(values, { epsilon: 0.1, preview: true, ...more }),
   sweep: (smoother, more) => smoother.sweep(values, { ...loose, counts: true, ...more }),
   family: (smoother, more) => {
     const family = smoother.family(values, { ...loose, ...more });

@@ -21,9 +21,11 @@ afterAll(() => rmSync(folder, { recursive: true, force: true }));
 it('shows ten lines of JavaScript that run', () => {
   const example = read('examples', 'smooth.mjs');
   const blocksOf = (...page) => [...read(...page).matchAll(/^```js\n([^]*?)^```/gm)].map((match) => match[1]);
-  expect(blocksOf('README.md')).toEqual([example]);
+  const [first, ...more] = blocksOf('README.md');
+  expect(more).toEqual([example]);
+  expect(read('examples', 'prescribe.mjs')).toContain(first);
   // The other pages show parts of other examples.
-  const others = read('examples', 'constraints.mjs') + read('examples', 'sheet.mjs');
+  const others = ['constraints', 'prescribe', 'sheet'].map((name) => read('examples', `${name}.mjs`)).join('');
   const blocks = ['methods', 'pictures', 'files', 'loading'].flatMap((page) => blocksOf('docs', `${page}.md`));
   expect(blocks.length).toBeGreaterThan(1);
   for (const block of blocks) expect(others).toContain(block);
@@ -87,6 +89,14 @@ it('writes a field that has kept its persistent critical points', () => {
     expect(is.get(v)).toBe(was.get(v));
   }
   mesh.free();
+});
+
+it('prescribes the extrema of a terrain', () => {
+  const path = join(folder, 'exact.png');
+  const lines = run('prescribe.mjs', path).trimEnd().split('\n');
+  expect(lines[0]).toBe('minima 570 → 5, maxima 529 → 8, saddles 1091 → 12');
+  expect(Number(/^energy ([\d.]+) % above/.exec(lines[1])[1])).toBeLessThan(1);
+  expect(readFileSync(path).equals(readFileSync(join(root, 'docs', 'exact.png')))).toBe(true);
 });
 
 it("draws the README's picture", () => {

@@ -176,7 +176,7 @@ const { report, reports } = result;
 same<typeof reports, api.SmoothReport[]>(true);
 const { method, equation, epsilon, constraintCount, before, after, lInfinity, l2, metricNorm } = report;
 const { sobolevBefore, sobolevAfter, preserved, freeExtrema, perturbationFactor, solver } = report;
-same<typeof method, 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral'>(true);
+same<typeof method, 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral' | 'prescribe'>(true);
 const { route, precision, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } = solver;
 same<[typeof before, typeof epsilon, typeof relativeResidual], [api.CriticalCounts, number | null, number]>(true);
 // @ts-expect-error ε has no default

@@ -101,6 +101,7 @@ export class MorseSmoothError extends Error {
    *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
    * - fields: `LengthMismatch`, `NonFiniteValue`, `MissingValue`, `RangeOverflow`, `NonFiniteLevel`, `NotAnExtremum`
    * - smoothing: `Unconstrained`, `InvalidWeight`, `Diverged`
+   * - prescribed extrema: `ConflictingExtremum`, `AdjacentExtrema`, `TooFewExtrema`, `Infeasible`, `ConstantField`
    * - systems: `NotPositiveDefinite` (`column`: the vertex at which a factorisation or an iteration failed),
    *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached)
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`

@@ -245,6 +245,21 @@ export class Smoother {
   bilateral(values: Numbers, options: BilateralOptions & ProgressOptions): Smoothed;
 
   /**
+   * The smoothest field that has exactly the chosen minima and maxima: of all fields that rise along the same steps as the smoothed
+   * field once other extrema are flooded, the one of the least ‖Lx‖² + ε‖x − f‖². On a closed surface it has minima + maxima − χ saddles.
+   * Classification has confirmed its extrema when it is returned.
+   *
+   * @throws as {@link Smoother.tikhonov}, with constraints as {@link Smoother.leastSquares}; `IndexOutOfBounds` (`index`),
+   *   `NotAnExtremum` (`vertex`), `ConflictingExtremum` (`vertex`: a minimum and a maximum), `AdjacentExtrema` (`first`, `second`, `kind`),
+   *   `TooFewExtrema` (`kind`, `wanted`, `found`) for the extrema; `Unconstrained` (`component`, `vertex`) for a component without a minimum or a maximum; `Infeasible` (`from`,
+   *   `to`) where kept values, the range or the prominence contradict each other; `ConstantField`; `InapplicableOption` for several
+   *   channels and for `missing: "fill"`; `NotConverged`
+   */
+  prescribe(values: Numbers, options: PrescribeOptions & ProgressOptions): Prescribed;
+  prescribe(values: Numbers, options: PrescribeByWavelengthOptions & ProgressOptions): Prescribed;
+  prescribe(values: Numbers, options: PrescribeByLeastSquaresOptions & ProgressOptions): Prescribed;
+
+  /**
    * The smoothed fields of all ε at once: six or seven factorisations, after which each ε takes milliseconds. Only one call of the smoother
    * or of its families' `grow` runs at a time.
    *
@@ -272,7 +287,7 @@ export interface Smoothed {
 
 /** What smoothing did to a field f. Norms and differences are those of f scaled to [0, 1], so that fields can be compared. */
 export interface SmoothReport {
-  method: 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral';
+  method: 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral' | 'prescribe';
   /** The equation of the paper, such as `"(5)"`, or one of its references; `"fem"` for that operator. */
   equation: string;
   /** The ε that was used; `null` where there is none. */
@@ -366,6 +381,9 @@ export function smooth(mesh: TriMesh, values: Numbers, options?: SmoothOptions):
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByLeastSquaresOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByInterpolationOptions): Smoothed;
+export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByPrescriptionOptions): Prescribed;
+export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthPrescriptionOptions): Prescribed;
+export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByConstrainedPrescriptionOptions): Prescribed;
 
 /** What {@link smooth} takes. */
 export interface SmoothOptions extends SmootherOptions, Omit<TikhonovOptions, 'epsilon'>, ChannelOptions {

@@ -4,7 +4,7 @@ use super::choose::EpsilonRule;
 use crate::error::OptionError;
 use crate::mesh::{TriMesh, diagonal};
 use crate::smooth::operators::Operators;
-use crate::smooth::{LeastSquaresOptions, Method, Operator, TikhonovOptions, epsilon_for_wavelength};
+use crate::smooth::{Functional, LeastSquaresOptions, Method, Operator, TikhonovOptions, epsilon_for_wavelength};
 
 /// The methods that have families.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +85,12 @@ impl<'a> FamilyOptions<'a> {
         let method = match method.with_epsilon(middle) {
             Method::Tikhonov(options) => FamilyMethod::Tikhonov(options),
             Method::LeastSquares(options) => FamilyMethod::LeastSquares(options),
-            _ => return Err(OptionError::invalid("method", "`tikhonov` or `leastSquares`, which have ε")),
+            // Whatever extrema are chosen, the best ε is a matter of the functional and the noise.
+            Method::Prescribe(options) => match options.functional {
+                Functional::Tikhonov(options) => FamilyMethod::Tikhonov(options),
+                Functional::LeastSquares(options) => FamilyMethod::LeastSquares(options),
+            },
+            _ => return Err(OptionError::invalid("method", "`tikhonov`, `leastSquares` or `prescribe`, which have ε")),
         };
         let tolerance = if matches!(rule, EpsilonRule::AtMostCriticalPoints { .. }) { FOR_COUNTS } else { FOR_NORMS };
         Ok(Self { method, range, tolerance, ..defaults })

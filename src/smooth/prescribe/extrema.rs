@@ -89,7 +89,7 @@ pub(super) fn chosen(
             Chosen { minima: minima.to_vec(), maxima: maxima.to_vec() }
         }
         Extrema::Above { threshold, of } => {
-            let bound = threshold.absolute(input.range(), "threshold")?;
+            let bound = threshold.absolute(input.range(), "extrema.threshold")?;
             let diagram = persistence(source(of), watch)?;
             let count = diagram.pairs.partition_point(|pair| pair.persistence > bound);
             most_persistent(&diagram, [count; 2], count)

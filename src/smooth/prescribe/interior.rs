@@ -251,7 +251,8 @@ impl Point {
         let predicted = self.direction(quadratic, steps, &weights, &products, watch)?;
         let reach = self.longest(&predicted);
         let after = self.product_after(&predicted, reach) / m as f64;
-        let target = (after / mu).powi(3) * mu;
+        let quotient = after / mu;
+        let target = quotient * quotient * quotient * mu;
         let corrected: Vec<f64> = products
             .iter()
             .zip(predicted.slacks.iter().zip(&predicted.multipliers))

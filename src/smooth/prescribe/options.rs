@@ -32,7 +32,7 @@ pub struct PrescribeOptions<'a> {
     /// Whether the order of the vertices is taken once more, from the result. Default false.
     pub again: bool,
     /// Whether the flooded smoothed field is enough: it has exactly the chosen extrema, but is not the smoothest such field. It comes in the time of
-    /// one smoothing. `margin`, `prominence` and `range` are not for it. Default false.
+    /// one smoothing. `margin` means nothing to it, and what else would change its values is refused. Default false.
     pub preview: bool,
 }
 
@@ -102,6 +102,17 @@ impl PrescribeOptions<'_> {
         }
         if self.representatives != 1 && self.representatives != 3 {
             return Err(OptionError::invalid("representatives", "1 or 3"));
+        }
+        let defaults = PrescribeOptions::default();
+        let beyond_previews = [
+            ("values", self.values != defaults.values),
+            ("prominence", self.prominence.is_some()),
+            ("range", self.range != defaults.range),
+            ("representatives", self.representatives != defaults.representatives),
+            ("again", self.again != defaults.again),
+        ];
+        if let Some((option, _)) = beyond_previews.into_iter().find(|&(_, asked)| self.preview && asked) {
+            return inapplicable(option, "a preview is the flooded field as it is; ask for the whole optimum");
         }
         Ok(())
     }

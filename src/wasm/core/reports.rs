@@ -7,7 +7,9 @@ use wasm_bindgen::JsValue;
 use crate::error::OutOfMemory;
 use crate::field::CriticalCounts;
 use crate::mesh::MeshTopology;
-use crate::smooth::{ChosenEpsilon, MaximumPrinciple, SmoothReport, SmoothnessEnergies, SolverReport};
+use crate::smooth::{
+    ChosenEpsilon, MaximumPrinciple, PrescribedReport, SmoothReport, SmoothnessEnergies, SolverReport,
+};
 use crate::wasm::shared::answer::Answer;
 
 pub(super) fn topology(topology: &MeshTopology) -> Object {
@@ -91,6 +93,21 @@ pub(super) fn chosen(choice: &ChosenEpsilon) -> Answer {
         None => answer.set("noise", &JsValue::NULL),
     }
     answer
+}
+
+/// What is told of prescribed extrema, beside the values.
+pub(super) fn prescribed(answer: &Answer, report: &PrescribedReport) {
+    answer.array("minima", &report.minima);
+    answer.array("maxima", &report.maxima);
+    answer.array("unavoidable", &report.unavoidable);
+    answer.number("energy", report.energy);
+    answer.number("unconstrainedEnergy", report.unconstrained_energy);
+    answer.number("leastSlack", report.least_slack);
+    answer.number("margin", report.margin);
+    answer.number("gap", report.gap);
+    answer.count("iterations", report.iterations);
+    answer.count("solves", report.solves);
+    answer.text("route", report.route.name());
 }
 
 fn maximum_principle(principle: &MaximumPrinciple) -> Answer {

@@ -84,5 +84,8 @@ pub(super) fn answer(smoothed: &Smoothed) -> Outcome<Object> {
     answer.array("values", &smoothed.values);
     answer.set("report", &reports.get(0));
     answer.set("reports", &reports);
+    if let Some(prescribed) = smoothed.reports.first().and_then(|report| report.prescribed.as_ref()) {
+        reports::prescribed(&answer, prescribed);
+    }
     Ok(answer.finish()?)
 }

@@ -33,11 +33,10 @@ export class Methods {
   run(field: Field, settings: Settings, pairs: PersistencePairs, found: Found | null): Result {
     if (settings.method === 'simplify') return this.simplified(field.known, settings, pairs);
     const { values: smoothed, report } = this.smoothed(field, settings, found);
-    const { method, ...others } = report;
-    const { lInfinity, sobolevBefore, sobolevAfter, before, after } = others;
+    const { lInfinity, sobolevBefore, sobolevAfter, before, after } = report;
     return {
       values: smoothed,
-      method,
+      method: settings.method,
       settings: nameOf(settings),
       before,
       after,

@@ -12,6 +12,18 @@ export function toConstraints(value, vertexCount) {
   return rule;
 }
 
+/** Extrema by their vertices, `{ minima, maxima }` of a mesh that has so many vertices, or a rule that finds them. */
+export function toExtrema(value, vertexCount) {
+  if (!isRecord(value)) return toVertices(value, 'extrema', vertexCount);
+  const choice = { ...value };
+  const isRule = choice.from !== undefined && choice.from !== null;
+  for (const kind of isRule ? [] : ['minima', 'maxima']) {
+    const isThere = choice[kind] !== undefined && choice[kind] !== null;
+    if (isThere) choice[kind] = toVertices(choice[kind], `extrema.${kind}`, vertexCount);
+  }
+  return choice;
+}
+
 /** Levels by value, or `{ count }`, or `{ saddles }` of a mesh with so many vertices. */
 export function toLevels(value, vertices) {
   if (!isRecord(value)) return toNumbers(value, 'levels');

@@ -1,13 +1,13 @@
 import { toNumbers, toOptions } from '../../runtime/convert.js';
 import { watched } from '../../runtime/progress.js';
 import { Handle } from '../../runtime/handles.js';
-import { toConstraints } from './arguments.js';
+import { toConstraints, toExtrema } from './arguments.js';
 import { familyOf, toRule } from './family.js';
 import { handleOf } from './mesh.js';
 import { core } from './module.js';
 
 /** The methods that take constraints; to the others they are an option that they do not know, whatever its value. */
-const CONSTRAINED = ['interpolate', 'leastSquares'];
+const CONSTRAINED = ['interpolate', 'leastSquares', 'prescribe'];
 
 /** How much of a sweep it is to make the family. */
 const SHARE_OF_FAMILY = 0.8;
@@ -52,6 +52,12 @@ export class Smoother {
 
   bilateral(values, options) {
     return this.#smooth('bilateral', values, options);
+  }
+
+  prescribe(values, options) {
+    const given = withExtrema(toOptions(options), this.#vertexCount);
+    if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
+    return this.#smooth('prescribe', values, given);
   }
 
   family(values, options) {
@@ -110,7 +116,8 @@ export function smooth(mesh, values, options) {
   void core.instance;
   const source = handleOf(mesh);
   const numbers = toNumbers(values, 'values');
-  const given = withRule(withConstraints(toOptions(options), mesh.vertexCount));
+  const count = mesh.vertexCount;
+  const given = withRule(withExtrema(withConstraints(toOptions(options), count), count));
   return watched(given, (settings) => source.use((rawMesh, glue) => glue.smooth(rawMesh, numbers, settings)));
 }
 
@@ -124,6 +131,13 @@ function within(start, end, onProgress) {
 function withConstraints(settings, vertexCount) {
   const constraints = settings?.constraints;
   if (isGiven(constraints)) settings.constraints = toConstraints(constraints, vertexCount);
+  return settings;
+}
+
+/** Options whose chosen extrema are as the wasm module takes them. */
+function withExtrema(settings, vertexCount) {
+  const extrema = settings?.extrema;
+  if (isGiven(extrema)) settings.extrema = toExtrema(extrema, vertexCount);
   return settings;
 }
 

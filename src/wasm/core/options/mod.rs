@@ -3,6 +3,7 @@
 mod constraints;
 mod epsilon;
 mod family;
+mod prescribe;
 mod record;
 mod smoothing;
 

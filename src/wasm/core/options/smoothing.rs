@@ -4,10 +4,11 @@ use js_sys::Float64Array;
 
 use super::Constraining;
 use super::epsilon::epsilon;
+use super::prescribe::Prescribing;
 use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
-    MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
+    BilateralOptions, Constraints, EpsilonRule, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions,
+    Method, MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
 use crate::wasm::shared::arrays::floats;
@@ -31,9 +32,12 @@ pub(in crate::wasm::core) enum ShortMethod {
     Tikhonov,
     Interpolate,
     LeastSquares,
+    Prescribe,
 }
 
-named! { ShortMethod { Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares" } }
+named! { ShortMethod {
+    Tikhonov = "tikhonov", Interpolate = "interpolate", LeastSquares = "leastSquares", Prescribe = "prescribe",
+} }
 
 impl ShortMethod {
     pub(in crate::wasm::core) fn method(self) -> MethodName {
@@ -41,9 +45,13 @@ impl ShortMethod {
             Self::Tikhonov => MethodName::Tikhonov,
             Self::Interpolate => MethodName::Interpolate,
             Self::LeastSquares => MethodName::LeastSquares,
+            Self::Prescribe => MethodName::Prescribe,
         }
     }
 }
+
+/// Why an option of constraints is refused.
+const WITHOUT_CONSTRAINTS: &str = "without `constraints` it has no meaning";
 
 /// A method with its options; owns what the options of `smooth` borrow.
 pub(in crate::wasm::core) enum Smoothing {
@@ -52,6 +60,8 @@ pub(in crate::wasm::core) enum Smoothing {
     LeastSquares(Constraining, Option<Vec<f64>>, LeastSquaresOptions<'static>, Option<EpsilonRule>),
     LowPass(LowPassOptions),
     Bilateral(BilateralOptions),
+    /// With the method whose functional is to be small.
+    Prescribe(Box<Smoothing>, Prescribing),
 }
 
 impl Smoothing {
@@ -86,11 +96,36 @@ impl Smoothing {
             }
             MethodName::LowPass => Self::LowPass(LowPassOptions { channels, missing, ..low_pass(record) }),
             MethodName::Bilateral => Self::Bilateral(BilateralOptions { channels, missing, ..bilateral(record) }),
+            MethodName::Prescribe => {
+                let functional = Self::read_functional(record, operator, has_default);
+                Self::Prescribe(Box::new(functional), Prescribing::read(record))
+            }
         }
+    }
+
+    /// The functional of least squares where there are constraints, else that of Tikhonov smoothing.
+    fn read_functional(record: &Record, operator: Operator, has_default: bool) -> Self {
+        let read = |constrained: bool| {
+            let method = if constrained { MethodName::LeastSquares } else { MethodName::Tikhonov };
+            Self::read_with(record, method, operator, has_default)
+        };
+        let constrained = record.holds("constraints");
+        let functional = read(constrained);
+        record.foreign(if constrained { "it is not for least squares" } else { WITHOUT_CONSTRAINTS }, &|_| {
+            read(!constrained);
+        });
+        functional
     }
 
     /// Reads also the weights of constraints: the weights among the options of `smooth` are those of the Laplacian.
     pub(in crate::wasm::core) fn with_weights(mut self, record: &Record) -> Self {
+        if let Self::Prescribe(functional, prescribing) = self {
+            if !record.holds("constraints") && record.has("weights") {
+                record.inapplicable("weights", WITHOUT_CONSTRAINTS);
+                return Self::Prescribe(functional, prescribing);
+            }
+            return Self::Prescribe(Box::new(functional.with_weights(record)), prescribing);
+        }
         if let Self::LeastSquares(_, weights, ..) = &mut self {
             let array = record.object::<Float64Array>("weights", "one number for each constrained vertex");
             *weights = array.and_then(|array| record.taken(floats(&array)));
@@ -102,6 +137,7 @@ impl Smoothing {
     pub(in crate::wasm::core) fn rule(&self) -> Option<EpsilonRule> {
         match self {
             Self::Tikhonov(_, rule) | Self::LeastSquares(.., rule) => *rule,
+            Self::Prescribe(functional, _) => functional.rule(),
             _ => None,
         }
     }
@@ -119,6 +155,11 @@ impl Smoothing {
             }
             Self::LowPass(options) => Method::LowPass(*options),
             Self::Bilateral(options) => Method::Bilateral(*options),
+            Self::Prescribe(functional, prescribing) => prescribing.method(match functional.method() {
+                Method::Tikhonov(options) => Functional::Tikhonov(options),
+                Method::LeastSquares(options) => Functional::LeastSquares(options),
+                _ => Functional::default(),
+            }),
         }
     }
 }
