@@ -282,6 +282,7 @@ export class Session {
     const before = this.fields.get(settings.field)!;
     this.corners ??= this.scene.surface().vertices;
     send(quickPart(this.mesh, values, this.corners, before, settings));
+    if (isExact(settings)) send(this.pairsAfter(values));
     if (isByBasins(coloring)) send(this.basins('after', values, coloring, 0).part);
     if (coloring === 'difference') send(differencePart(this.scene, before.known, values));
   }
@@ -338,8 +339,7 @@ export class Session {
       if (hasLines) parts.push({ kind: 'lines', side: 'after', lines: levelLines(list), levels: this.levels });
       if (hasComplex) parts.push({ kind: 'complex', side: 'after', lines: complexLines(list) });
     }
-    if (isDue('after.pairs', key))
-      parts.push({ kind: 'pairsAfter', pairs: pairsOf(this.mesh.persistence(values, holes), values) });
+    if (isDue('after.pairs', key)) parts.push(this.pairsAfter(values));
     // The colors follow those on the left, which depend on the threshold.
     if (isByBasins(coloring) && isDue('after.basins', `${key} ${persistence} ${coloring}`))
       parts.push(this.basins('after', values, coloring, 0).part);
@@ -386,6 +386,10 @@ export class Session {
     // For the index sum, which is checked against the Euler characteristic.
     const { counts } = this.mesh.criticalPoints(values, omitting(values));
     return { kind: 'hierarchy', side, counts, hierarchy, solids, shape: shapeOf(this.mesh, values) };
+  }
+
+  private pairsAfter(values: Float64Array): Part {
+    return { kind: 'pairsAfter', pairs: pairsOf(this.mesh.persistence(values, omitting(values)), values) };
   }
 
   private basins(side: Side, values: Float64Array, coloring: 'minima' | 'maxima', persistence: number) {

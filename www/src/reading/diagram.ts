@@ -181,7 +181,8 @@ export class Diagram {
     ctx.fillStyle = how.filled && kind !== 0 ? color : 'rgb(255 255 255 / 70%)';
     ctx.fill();
     ctx.strokeStyle = kind === 0 || how.filled ? INK : color;
-    ctx.globalAlpha = how.filled || how.halo ? 1 : 0.6;
+    // Where crosses are what counts, what is dropped stands back further.
+    ctx.globalAlpha = how.filled || how.halo ? 1 : this.result ? 0.35 : 0.6;
     ctx.stroke();
     ctx.globalAlpha = 1;
     if (how.ring) {

@@ -18,7 +18,7 @@ export function exactGroup(exact: ExactReport): Group {
   const left = new Set(unavoidable);
   const chosen = (all: Uint32Array): number => all.filter((vertex) => !left.has(vertex)).length;
   return {
-    title: 'Exact extrema',
+    title: 'The choice',
     lines: [
       {
         name: 'Chosen',
@@ -37,8 +37,8 @@ export function exactGroup(exact: ExactReport): Group {
       {
         name: 'Certificate',
         value:
-          `the least rise along a step is ${short(leastSlack)} times the margin of ${short(margin)} of the range; ` +
-          `${leastSlack >= 0.9 ? 'above 0.9' : 'only above 0.9'} it proves that there are no other extrema`,
+          `every step rises by at least ${short(leastSlack)} of the margin, ${short(margin)} of the range; ` +
+          `${leastSlack >= 0.9 ? '0.9 or more proves' : 'less than 0.9 does not prove'} that there are no other extrema`,
         meaning:
           'From every vertex that is no chosen extremum there is a step down and a step up to a neighbour, each with at least this rise',
         id: 'report-certificate',

@@ -51,9 +51,8 @@ function extremaOf(settings: Settings, values: Float64Array, pairs: PersistenceP
   return { minima: [...pairs.essentialMinima, ...of(-1)], maxima: [...pairs.essentialMaxima, ...of(1)] };
 }
 
-/** What can be done about it. */
+/** What can be done about it on the page. */
 const WAYS: Record<string, string> = {
-  Infeasible: 'Let the values be free, ask for less height, or choose other extrema.',
   AdjacentExtrema: 'Drop one of them in the persistence diagram.',
   ConflictingExtremum: 'Drop it as one of the two in the persistence diagram.',
   Unconstrained: 'Keep a minimum and a maximum there.',
@@ -61,8 +60,24 @@ const WAYS: Record<string, string> = {
   NotConverged: 'Another ε or fewer extrema may do.',
 };
 
+/** Between which vertices there is no room. */
+interface Ends {
+  from?: number;
+  to?: number;
+}
+
+/** In place of the package's message, which names its options. */
+function noRoom({ from, to }: Ends): string {
+  const where = from === undefined || to === undefined ? '' : ` from vertex ${from} up to vertex ${to}`;
+  return (
+    `The chosen extrema leave no room for a field that rises${where}: values that are kept and the height that is asked for ` +
+    'contradict each other. Untick “Keep their values”, ask for less height, or choose other extrema.'
+  );
+}
+
 function explained(error: unknown): unknown {
   if (!(error instanceof MorseSmoothError)) return error;
+  if (error.code === 'Infeasible') return new Refusal(error.code, noRoom(error.detail as Ends));
   const way = WAYS[error.code];
   return way ? new Refusal(error.code, `${error.message.replace(/\.$/, '')}. ${way}`) : error;
 }

@@ -1,8 +1,7 @@
 /** The user's side of exact extrema: which vertices are marked as chosen, and what is said of them. */
 import type { ExactReport, Found } from '../protocol';
 
-export const BY_SMOOTHED =
-  'The threshold is for the pairs of the smoothed field; the dots are those of the input, the crosses those of the result';
+export const BY_SMOOTHED = 'The threshold is for the smoothed field; dots: input, crosses: result';
 
 export const EXACT_PREVIEW = 'Preview: the chosen extrema, still rough';
 

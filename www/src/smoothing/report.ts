@@ -196,7 +196,7 @@ function principle({
     : `void: smallest weight ${short(smallestWeight)}; ${free(extrema)} among neighbours${onMesh}`;
 }
 
-function solver({ smoothing, milliseconds }: AfterReport): Group {
+function solver({ smoothing, milliseconds, exact }: AfterReport): Group {
   const time = line('Time', duration(milliseconds), 'In the background worker, report included', 'report-time');
   if (!smoothing) return { title: 'Work', lines: [time] };
   const { route, precision, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } =
@@ -214,7 +214,8 @@ function solver({ smoothing, milliseconds }: AfterReport): Group {
       isSolved
         ? line('Refinement', `${refinementSteps} ${refinementSteps === 1 ? 'step' : 'steps'}`, 'Corrections of the first solution', 'report-refinement') // prettier-ignore
         : null,
-      iterations > 0
+      // With exact extrema they stand beside the choice.
+      iterations > 0 && !exact
         ? line('Iterations', whole(iterations), 'Of conjugate gradients, or of the filter', 'report-iterations')
         : null,
       time,
