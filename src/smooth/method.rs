@@ -39,6 +39,16 @@ pub enum Method<'a> {
     Prescribe(PrescribeOptions<'a>),
 }
 
+impl<'a> From<Functional<'a>> for Method<'a> {
+    /// The method that minimises a functional, and nothing else.
+    fn from(functional: Functional<'a>) -> Self {
+        match functional {
+            Functional::Tikhonov(options) => Self::Tikhonov(options),
+            Functional::LeastSquares(options) => Self::LeastSquares(options),
+        }
+    }
+}
+
 impl<'a> Method<'a> {
     /// The method's name.
     #[must_use]
@@ -76,6 +86,17 @@ impl<'a> Method<'a> {
             Self::LowPass(options) => options.missing,
             Self::Bilateral(options) => options.missing,
             Self::Prescribe(options) => options.functional.missing(),
+        }
+    }
+
+    /// What it minimises, if that has an ε.
+    #[must_use]
+    pub fn functional(&self) -> Option<Functional<'a>> {
+        match self {
+            Self::Tikhonov(options) => Some(Functional::Tikhonov(*options)),
+            Self::LeastSquares(options) => Some(Functional::LeastSquares(*options)),
+            Self::Prescribe(options) => Some(options.functional),
+            Self::Interpolate(_) | Self::LowPass(_) | Self::Bilateral(_) => None,
         }
     }
 

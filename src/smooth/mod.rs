@@ -27,7 +27,7 @@ mod unconstrained;
 
 pub use choice::{ChosenEpsilon, Confidence, NoiseLevel, RuleName};
 pub use constraints::{Constraints, Unconstrained, constrained_vertices};
-pub use family::{EpsilonRule, ExtremumLife, Family, FamilyMethod, FamilyOptions, Sweep, SweepOptions};
+pub use family::{EpsilonRule, ExtremumLife, Family, FamilyOptions, Sweep, SweepOptions};
 pub use maximum_principle::MaximumPrinciple;
 pub use method::Method;
 pub use methods::{

@@ -6,7 +6,7 @@ use morse_smooth::field::{Features, Missing};
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{LaplacianWeights, MassScale};
 use morse_smooth::smooth::{
-    Constraints, EpsilonRule, Family, FamilyMethod, FamilyOptions, LeastSquaresOptions, Metric, Operator, Smoother,
+    Constraints, EpsilonRule, Family, FamilyOptions, Functional, LeastSquaresOptions, Metric, Operator, Smoother,
     SmootherOptions, SolverChoice, SweepOptions, TikhonovOptions, Unconstrained,
 };
 use nalgebra::DMatrix;
@@ -23,7 +23,7 @@ pub(crate) fn epsilons(range: (f64, f64), count: usize) -> Vec<f64> {
 }
 
 pub(crate) fn tikhonov(options: TikhonovOptions) -> FamilyOptions<'static> {
-    FamilyOptions { method: FamilyMethod::Tikhonov(options), ..FamilyOptions::default() }
+    FamilyOptions { method: Functional::Tikhonov(options), ..FamilyOptions::default() }
 }
 
 pub(crate) fn built(smoother: &mut Smoother, values: &[f64], options: &FamilyOptions<'_>) -> Family {
@@ -153,7 +153,7 @@ fn least_squares_agree_with_dense_algebra() {
                     weights: weighted.then_some(&weights),
                     ..LeastSquaresOptions::default()
                 };
-                let options = FamilyOptions { method: FamilyMethod::LeastSquares(method), ..FamilyOptions::default() };
+                let options = FamilyOptions { method: Functional::LeastSquares(method), ..FamilyOptions::default() };
                 let family = built(&mut smoother, &f, &options);
                 let at = reference.reached(&listed);
                 let context = format!("{name} {setting:?}, every {every}, weighted {weighted}");
@@ -334,7 +334,7 @@ fn all_vertices_constrained_or_hardly_any() {
         for listed in [&all[..], &all[..1], &all[1..3]] {
             let constraints = Constraints { features: Features::Vertices(listed), ..Constraints::default() };
             let method = LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() };
-            let options = FamilyOptions { method: FamilyMethod::LeastSquares(method), ..FamilyOptions::default() };
+            let options = FamilyOptions { method: Functional::LeastSquares(method), ..FamilyOptions::default() };
             let family = built(&mut smoother, &f, &options);
             let context = format!("{name}, {} constrained", listed.len());
             ask_everything(&family, &context, false);

@@ -3,7 +3,7 @@
 use morse_smooth::Watch;
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::smooth::{
-    Confidence, EpsilonRule, Family, FamilyMethod, FamilyOptions, LeastSquaresOptions, Smoother, SmootherOptions,
+    Confidence, EpsilonRule, Family, FamilyOptions, Functional, LeastSquaresOptions, Smoother, SmootherOptions,
     SweepOptions,
 };
 
@@ -184,7 +184,7 @@ fn rules_see_all_channels() {
     let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).unwrap();
     let method = |channels| {
         let plain = morse_smooth::smooth::TikhonovOptions { channels, ..Default::default() };
-        FamilyOptions { method: FamilyMethod::Tikhonov(plain), ..FamilyOptions::default() }
+        FamilyOptions { method: Functional::Tikhonov(plain), ..FamilyOptions::default() }
     };
     let alone = built(&mut smoother, &rough, &method(1));
     // Thrice the same field: every rule finds what it finds for one, noise in the units of the field.
@@ -218,7 +218,7 @@ fn rules_work_for_least_squares() {
         features: morse_smooth::field::Features::Vertices(&listed),
         ..Default::default()
     };
-    let method = FamilyMethod::LeastSquares(LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() });
+    let method = Functional::LeastSquares(LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() });
     let family = built(&mut smoother, &f, &FamilyOptions { method, ..FamilyOptions::default() });
     let error = |epsilon: f64| distance(&family.values(epsilon).unwrap(), &truth);
     let best = epsilons(family.range(), 101).into_iter().map(error).fold(f64::MAX, f64::min);

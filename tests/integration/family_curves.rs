@@ -5,7 +5,7 @@ use morse_smooth::field::{Features, Missing};
 use morse_smooth::mesh::shapes;
 use morse_smooth::operators::{LaplacianWeights, MassScale};
 use morse_smooth::smooth::{
-    Constraints, ExtremumLife, Family, FamilyMethod, FamilyOptions, LeastSquaresOptions, Metric, Operator, Smoother,
+    Constraints, ExtremumLife, Family, FamilyOptions, Functional, LeastSquaresOptions, Metric, Operator, Smoother,
     SmootherOptions, SweepOptions, TikhonovOptions,
 };
 use nalgebra::DMatrix;
@@ -34,7 +34,7 @@ fn families() -> Vec<(String, Family, bool)> {
         let constraints = Constraints { features: Features::Vertices(&listed), ..Constraints::default() };
         let fit =
             LeastSquaresOptions { constraints, weights: Some(&weights), channels: 2, ..LeastSquaresOptions::default() };
-        let options = FamilyOptions { method: FamilyMethod::LeastSquares(fit), ..FamilyOptions::default() };
+        let options = FamilyOptions { method: Functional::LeastSquares(fit), ..FamilyOptions::default() };
         all.push((format!("{operator:?} least squares"), built(&mut smoother, &values, &options), is_exact));
         let metrics = if is_exact { &[Metric::Identity, Metric::Mass, Metric::Lumped][..] } else { &[Metric::Mass] };
         for &metric in metrics {
@@ -187,7 +187,7 @@ fn degrees_of_freedom_go_to_the_number_of_known_values() {
     }
     let listed: Vec<u32> = (0..n as u32).step_by(10).collect();
     let constraints = Constraints { features: Features::Vertices(&listed), ..Constraints::default() };
-    let method = FamilyMethod::LeastSquares(LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() });
+    let method = Functional::LeastSquares(LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() });
     let options = FamilyOptions { method, range: (1e-8, 1e6), ..FamilyOptions::default() };
     let family = built(&mut smoother, &noise(n, 2), &options);
     let ends = [1e-8, 1e6].map(|epsilon| family.degrees_of_freedom(epsilon).unwrap());

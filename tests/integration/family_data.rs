@@ -4,8 +4,8 @@
 use morse_smooth::Watch;
 use morse_smooth::field::{DeltaOptions, Features, LinkReading};
 use morse_smooth::smooth::{
-    Constraints, FamilyMethod, FamilyOptions, LeastSquaresOptions, Metric, Operator, Smoothed, Smoother,
-    SmootherOptions, TikhonovOptions, Unconstrained,
+    Constraints, FamilyOptions, Functional, LeastSquaresOptions, Metric, Operator, Smoothed, Smoother, SmootherOptions,
+    TikhonovOptions, Unconstrained,
 };
 
 use crate::data::{as_array, folder, read, say, values};
@@ -52,10 +52,10 @@ fn least_squares() -> LeastSquaresOptions<'static> {
     LeastSquaresOptions { constraints, ..LeastSquaresOptions::default() }
 }
 
-fn exact(smoother: &mut Smoother, f: &[f64], method: FamilyMethod<'_>, epsilon: f64) -> Smoothed {
+fn exact(smoother: &mut Smoother, f: &[f64], method: Functional<'_>, epsilon: f64) -> Smoothed {
     match method {
-        FamilyMethod::Tikhonov(options) => smoother.tikhonov(f, &TikhonovOptions { epsilon, ..options }),
-        FamilyMethod::LeastSquares(options) => smoother.least_squares(f, &LeastSquaresOptions { epsilon, ..options }),
+        Functional::Tikhonov(options) => smoother.tikhonov(f, &TikhonovOptions { epsilon, ..options }),
+        Functional::LeastSquares(options) => smoother.least_squares(f, &LeastSquaresOptions { epsilon, ..options }),
     }
     .expect("a solution")
 }
@@ -72,10 +72,10 @@ fn check(cases: &[Case], count: usize) {
         let f = values(&folder, file, &loaded, field);
         let all: Vec<usize> = (0..f.len()).collect();
         for (name, operator, method) in [
-            ("identity", Operator::Paper, FamilyMethod::Tikhonov(with(Metric::Identity))),
-            ("mass", Operator::Paper, FamilyMethod::Tikhonov(with(Metric::Mass))),
-            ("fem", Operator::Fem, FamilyMethod::Tikhonov(with(Metric::Mass))),
-            ("least squares", Operator::Paper, FamilyMethod::LeastSquares(least_squares())),
+            ("identity", Operator::Paper, Functional::Tikhonov(with(Metric::Identity))),
+            ("mass", Operator::Paper, Functional::Tikhonov(with(Metric::Mass))),
+            ("fem", Operator::Fem, Functional::Tikhonov(with(Metric::Mass))),
+            ("least squares", Operator::Paper, Functional::LeastSquares(least_squares())),
         ] {
             let context = format!("{file} {field} {name}");
             let options = SmootherOptions { operator, ..SmootherOptions::default() };

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use morse_smooth::field::{Features, Missing};
 use morse_smooth::mesh::shapes;
 use morse_smooth::smooth::{
-    Constraints, EpsilonRule, Family, FamilyMethod, FamilyOptions, LeastSquaresOptions, Metric, Smoother,
+    Constraints, EpsilonRule, Family, FamilyOptions, Functional, LeastSquaresOptions, Metric, Smoother,
     SmootherOptions, SolverChoice, SweepOptions, TikhonovOptions,
 };
 use morse_smooth::{Error, Progress, Watch};
@@ -28,10 +28,10 @@ fn answers(family: &Family) -> (Vec<u64>, Vec<f64>, String) {
     (bits, numbers, format!("{sweep:?} {chosen:?}"))
 }
 
-fn kinds(listed: &[u32]) -> Vec<(FamilyMethod<'_>, SmootherOptions)> {
+fn kinds(listed: &[u32]) -> Vec<(Functional<'_>, SmootherOptions)> {
     let plain = SmootherOptions::default();
     let of = |metric, missing| {
-        FamilyMethod::Tikhonov(TikhonovOptions { metric, missing, channels: 5, ..TikhonovOptions::default() })
+        Functional::Tikhonov(TikhonovOptions { metric, missing, channels: 5, ..TikhonovOptions::default() })
     };
     let constraints = Constraints { features: Features::Vertices(listed), ..Constraints::default() };
     let fit = LeastSquaresOptions { constraints, channels: 5, ..LeastSquaresOptions::default() };
@@ -41,14 +41,14 @@ fn kinds(listed: &[u32]) -> Vec<(FamilyMethod<'_>, SmootherOptions)> {
         (of(Metric::Identity, Missing::Error), plain),
         (of(Metric::Mass, Missing::Omit), plain),
         (of(Metric::Lumped, Missing::Fill), plain),
-        (FamilyMethod::LeastSquares(fit), plain),
+        (Functional::LeastSquares(fit), plain),
         (of(Metric::Mass, Missing::Error), iterative),
     ]
 }
 
-fn values_for(method: &FamilyMethod<'_>, n: usize) -> Vec<f64> {
+fn values_for(method: &Functional<'_>, n: usize) -> Vec<f64> {
     let mut values = noise(5 * n, 9);
-    if let FamilyMethod::Tikhonov(TikhonovOptions { missing: Missing::Omit | Missing::Fill, .. }) = method {
+    if let Functional::Tikhonov(TikhonovOptions { missing: Missing::Omit | Missing::Fill, .. }) = method {
         values[5 * 31..5 * 40].fill(f64::NAN);
     }
     values
@@ -228,7 +228,7 @@ fn what_families_refuse() {
     let mut code = |values: &[f64], options: &FamilyOptions<'_>| {
         smoother.family(values, options, &Watch::none()).map_err(|error| error.code()).err()
     };
-    let unconstrained = FamilyMethod::LeastSquares(LeastSquaresOptions::default());
+    let unconstrained = Functional::LeastSquares(LeastSquaresOptions::default());
     assert_eq!(code(&f, &FamilyOptions { method: unconstrained, ..plain }), Some("Unconstrained"));
     assert_eq!(code(&f[1..], &plain), Some("LengthMismatch"));
     let mut holed = f.clone();

@@ -52,8 +52,7 @@ fn by_clarabel(h: &CscMatrix<f64>, c: &[f64], edges: &[(usize, usize, f64)]) -> 
         .tol_feas(1e-10)
         .build()
         .expect("settings");
-    let mut solver =
-        DefaultSolver::new(&p, &q, &a, &b, &[NonnegativeConeT(edges.len())], settings).expect("a program");
+    let mut solver = DefaultSolver::new(&p, &q, &a, &b, &[NonnegativeConeT(edges.len())], settings).expect("a program");
     solver.solve();
     assert!(matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved));
     solver.solution.x.clone()

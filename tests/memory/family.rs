@@ -3,7 +3,7 @@
 use morse_smooth::field::{Features, Missing};
 use morse_smooth::mesh::shapes::{self, Random};
 use morse_smooth::smooth::{
-    Constraints, EpsilonRule, Family, FamilyMethod, FamilyOptions, LeastSquaresOptions, Metric, Operator, Smoother,
+    Constraints, EpsilonRule, Family, FamilyOptions, Functional, LeastSquaresOptions, Metric, Operator, Smoother,
     SmootherOptions, SweepOptions, TikhonovOptions,
 };
 use morse_smooth::{TriMesh, Watch};
@@ -16,10 +16,10 @@ fn noise(n: usize) -> Vec<f64> {
 }
 
 /// Methods, operators and fields.
-fn all_cases<'a>(mesh: &TriMesh, listed: &'a [u32]) -> Vec<(FamilyMethod<'a>, Operator, Vec<f64>)> {
+fn all_cases<'a>(mesh: &TriMesh, listed: &'a [u32]) -> Vec<(Functional<'a>, Operator, Vec<f64>)> {
     let n = mesh.vertex_count();
     let tikhonov = |metric, channels, missing| {
-        FamilyMethod::Tikhonov(TikhonovOptions { metric, channels, missing, ..TikhonovOptions::default() })
+        Functional::Tikhonov(TikhonovOptions { metric, channels, missing, ..TikhonovOptions::default() })
     };
     let holed = |channels: usize| {
         let mut values = noise(n * channels);
@@ -35,7 +35,7 @@ fn all_cases<'a>(mesh: &TriMesh, listed: &'a [u32]) -> Vec<(FamilyMethod<'a>, Op
         (tikhonov(Metric::Mass, 1, Missing::Error), Operator::Fem, noise(n)),
         (tikhonov(Metric::Mass, 5, Missing::Omit), Operator::Paper, holed(5)),
         (tikhonov(Metric::Mass, 1, Missing::Fill), Operator::Paper, holed(1)),
-        (FamilyMethod::LeastSquares(fit), Operator::Paper, noise(n)),
+        (Functional::LeastSquares(fit), Operator::Paper, noise(n)),
     ]
 }
 

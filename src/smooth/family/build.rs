@@ -43,7 +43,7 @@ impl Family {
         watch: &Watch<'_>,
     ) -> Result<Self> {
         options.check()?;
-        let method = options.method.method();
+        let method = Method::from(options.method);
         let mut made = None;
         let make = &mut |input: &Input<'_>, systems: &mut Systems, method: &Method<'_>| {
             made = Some(start(input, systems, method, options, watch)?);

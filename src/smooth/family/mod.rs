@@ -26,4 +26,4 @@ pub use choose::EpsilonRule;
 pub use curves::{Sweep, SweepOptions};
 pub use lives::ExtremumLife;
 pub use members::Family;
-pub use options::{FamilyMethod, FamilyOptions};
+pub use options::FamilyOptions;

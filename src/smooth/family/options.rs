@@ -4,40 +4,14 @@ use super::choose::EpsilonRule;
 use crate::error::OptionError;
 use crate::mesh::{TriMesh, diagonal};
 use crate::smooth::operators::Operators;
-use crate::smooth::{Functional, LeastSquaresOptions, Method, Operator, TikhonovOptions, epsilon_for_wavelength};
-
-/// The methods that have families.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FamilyMethod<'a> {
-    /// [`Smoother::tikhonov`](crate::smooth::Smoother::tikhonov).
-    Tikhonov(TikhonovOptions),
-    /// [`Smoother::least_squares`](crate::smooth::Smoother::least_squares).
-    LeastSquares(LeastSquaresOptions<'a>),
-}
-
-impl<'a> FamilyMethod<'a> {
-    /// The method with its options, in which ε is the one where the space begins.
-    pub(super) fn method(self) -> Method<'a> {
-        match self {
-            Self::Tikhonov(options) => Method::Tikhonov(options),
-            Self::LeastSquares(options) => Method::LeastSquares(options),
-        }
-    }
-
-    fn epsilon(&self) -> f64 {
-        match self {
-            Self::Tikhonov(options) => options.epsilon,
-            Self::LeastSquares(options) => options.epsilon,
-        }
-    }
-}
+use crate::smooth::{Functional, Method, Operator, epsilon_for_wavelength};
 
 /// Options of [`Smoother::family`](crate::smooth::Smoother::family).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FamilyOptions<'a> {
     /// The method; its ε is where the space begins, and where it is good first; beyond the range, its nearer end. Default Tikhonov
     /// smoothing.
-    pub method: FamilyMethod<'a>,
+    pub method: Functional<'a>,
     /// The least and the largest ε. Default 1e-6 to 1e4.
     pub range: (f64, f64),
     /// The largest relative error ‖x − x_ε‖₂/‖x_ε‖₂ over the range, of normalised fields. Default 1e-6.
@@ -48,12 +22,7 @@ pub struct FamilyOptions<'a> {
 
 impl Default for FamilyOptions<'_> {
     fn default() -> Self {
-        Self {
-            method: FamilyMethod::Tikhonov(TikhonovOptions::default()),
-            range: (1e-6, 1e4),
-            tolerance: 1e-6,
-            factorizations: None,
-        }
+        Self { method: Functional::default(), range: (1e-6, 1e4), tolerance: 1e-6, factorizations: None }
     }
 }
 
@@ -82,16 +51,11 @@ impl<'a> FamilyOptions<'a> {
             Operator::Fem => wavelengths(&operators.mesh).unwrap_or(defaults.range),
         };
         let middle = (range.0 * range.1).sqrt();
-        let method = match method.with_epsilon(middle) {
-            Method::Tikhonov(options) => FamilyMethod::Tikhonov(options),
-            Method::LeastSquares(options) => FamilyMethod::LeastSquares(options),
-            // Whatever extrema are chosen, the best ε is a matter of the functional and the noise.
-            Method::Prescribe(options) => match options.functional {
-                Functional::Tikhonov(options) => FamilyMethod::Tikhonov(options),
-                Functional::LeastSquares(options) => FamilyMethod::LeastSquares(options),
-            },
-            _ => return Err(OptionError::invalid("method", "`tikhonov`, `leastSquares` or `prescribe`, which have ε")),
+        // Whatever extrema are prescribed, the best ε is a matter of the functional and the noise.
+        let Some(functional) = method.functional() else {
+            return Err(OptionError::invalid("method", "`tikhonov`, `leastSquares` or `prescribe`, which have ε"));
         };
+        let method = functional.with_epsilon(middle);
         let tolerance = if matches!(rule, EpsilonRule::AtMostCriticalPoints { .. }) { FOR_COUNTS } else { FOR_NORMS };
         Ok(Self { method, range, tolerance, ..defaults })
     }

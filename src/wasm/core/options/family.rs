@@ -3,7 +3,7 @@
 use js_sys::Array;
 
 use super::Smoothing;
-use crate::smooth::{FamilyMethod, FamilyOptions, LeastSquaresOptions, Method, MethodName, Operator};
+use crate::smooth::{FamilyOptions, MethodName, Operator};
 use crate::support::named::named;
 use crate::wasm::shared::record::Record;
 
@@ -52,19 +52,12 @@ impl FamilyChoice {
 
     /// The number of channels.
     pub(in crate::wasm::core) fn channels(&self) -> usize {
-        match self.options().method {
-            FamilyMethod::LeastSquares(options) => options.channels,
-            FamilyMethod::Tikhonov(options) => options.channels,
-        }
+        self.options().method.channels()
     }
 
     pub(in crate::wasm::core) fn options(&self) -> FamilyOptions<'_> {
         let defaults = FamilyOptions::default();
-        let method = match self.smoothing.method() {
-            Method::LeastSquares(options) => FamilyMethod::LeastSquares(LeastSquaresOptions { ..options }),
-            Method::Tikhonov(options) => FamilyMethod::Tikhonov(options),
-            _ => defaults.method,
-        };
+        let method = self.smoothing.method().functional().unwrap_or(defaults.method);
         FamilyOptions {
             method,
             range: self.range.unwrap_or(defaults.range),

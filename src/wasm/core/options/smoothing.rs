@@ -7,8 +7,8 @@ use super::epsilon::epsilon;
 use super::prescribe::Prescribing;
 use crate::field::Missing;
 use crate::smooth::{
-    BilateralOptions, Constraints, EpsilonRule, Functional, InterpolateOptions, LeastSquaresOptions, LowPassOptions,
-    Method, MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
+    BilateralOptions, Constraints, EpsilonRule, InterpolateOptions, LeastSquaresOptions, LowPassOptions, Method,
+    MethodName, Metric, Operator, SmootherOptions, TikhonovOptions, epsilon_for_wavelength,
 };
 use crate::support::named::named;
 use crate::wasm::shared::arrays::floats;
@@ -155,11 +155,9 @@ impl Smoothing {
             }
             Self::LowPass(options) => Method::LowPass(*options),
             Self::Bilateral(options) => Method::Bilateral(*options),
-            Self::Prescribe(functional, prescribing) => prescribing.method(match functional.method() {
-                Method::Tikhonov(options) => Functional::Tikhonov(options),
-                Method::LeastSquares(options) => Functional::LeastSquares(options),
-                _ => Functional::default(),
-            }),
+            Self::Prescribe(functional, prescribing) => {
+                prescribing.method(functional.method().functional().unwrap_or_default())
+            }
         }
     }
 }
