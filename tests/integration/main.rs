@@ -46,6 +46,7 @@ mod persistence;
 mod pictures;
 mod prescribe;
 mod prescribe_data;
+mod prescribe_peer;
 mod readme;
 mod refusals;
 mod reuse;

@@ -480,7 +480,7 @@ fn extreme_meshes_and_scales() {
     let field = noisy(&mesh, 3);
     let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).expect("a smoother");
     let options = PrescribeOptions {
-        extrema: Extrema::Most { minima: 2, maxima: 2, of: PersistenceOf::Smoothed },
+        extrema: Extrema::Most { minima: 2, maxima: 2, of: PersistenceOf::Input },
         ..PrescribeOptions::default()
     };
     let reference = told(&smoother.prescribe(&field, &options).expect("a field")).clone();

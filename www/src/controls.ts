@@ -29,6 +29,7 @@ export interface ControlEvents {
   epsilon(): void;
   /** Said before `settings`, for what needs no worker. */
   delta(value: number): void;
+  /** In place of `settings`, since what depends on it may have a preview. */
   persistence(value: number): void;
   layers(layers: Layers): void;
   example(id: string): void;
@@ -240,7 +241,6 @@ export class Controls {
 
   changePersistence(): void {
     this.events.persistence(Number(this.persistenceNumber.value));
-    this.events.settings();
   }
 
   private wireDisplay(): void {

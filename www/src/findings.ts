@@ -2,7 +2,7 @@
 import type { LevelSets, PersistencePairs, TriMesh } from 'morse-smooth';
 import { omitting } from './gaps';
 import { rangeOf } from './measures';
-import type { Arcs, Hierarchy, Pairs, Part, Settings } from './protocol';
+import type { Arcs, Hierarchy, Pairs, Settings } from './protocol';
 import { keptPairs } from './reading/pairs';
 
 /** Distance of levels from their saddle, relative to the range: near enough to show its two sides, far enough to be two lines. */
@@ -25,11 +25,11 @@ export function hierarchyOf(mesh: TriMesh, values: Float64Array, { link }: Setti
   };
 }
 
-export function pairsPart(found: PersistencePairs, values: Float64Array): Part {
+export function pairsOf(found: PersistencePairs, values: Float64Array): Pairs {
   const { essentialMinima, essentialSaddles, essentialMaxima } = found;
   const essential = Uint32Array.from([...essentialMinima, ...essentialSaddles, ...essentialMaxima]);
   const saddlesEnd = essentialMinima.length + essentialSaddles.length;
-  const pairs: Pairs = {
+  return {
     extrema: new Uint32Array(found.extrema),
     saddles: new Uint32Array(found.saddles),
     kinds: new Int8Array(found.kinds),
@@ -40,7 +40,6 @@ export function pairsPart(found: PersistencePairs, values: Float64Array): Part {
     essentialKinds: Int8Array.from(essential, (_, k) => (k < essentialMinima.length ? -1 : k < saddlesEnd ? 0 : 1)),
     essentialValues: Float64Array.from(essential, (vertex) => values[vertex]!),
   };
-  return { kind: 'pairs', range: rangeOf(values), pairs };
 }
 
 /** In units of the field. */

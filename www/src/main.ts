@@ -8,7 +8,7 @@ import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
 import { Panel } from './panel';
-import type { MeshSummary, Part, Request, Settings } from './protocol';
+import type { ExactReport, MeshSummary, Part, Request, Settings } from './protocol';
 import { NO_OVERRIDES } from './reading/pairs';
 import { Paths } from './reading/paths';
 import { Reading } from './reading/reading';
@@ -18,7 +18,8 @@ import { Choosing } from './smoothing/choosing';
 import { Constraining } from './smoothing/constraining';
 import { MovingEpsilon } from './smoothing/epsilon';
 import { ReportPanel } from './smoothing/report';
-import { INITIAL_SMOOTHING } from './smoothing/settings';
+import { BY_SMOOTHED, EXACT_PREVIEW, extremaOf, foundOf } from './smoothing/extrema';
+import { INITIAL_SMOOTHING, isExact, smoothingKey } from './smoothing/settings';
 import { describe, Status } from './status';
 import { makeTabs } from './tabs';
 import { link } from './viewer';
@@ -62,6 +63,8 @@ let source: Source | null = null;
 let offered: Source | null = null;
 let shown: { summary: MeshSummary; size: SolidSize } | null = null;
 let accepted: Settings = INITIAL;
+/** The extrema that the field after has, where they were chosen. */
+let exact: ExactReport | null = null;
 let lit: Lit | null = null;
 let wantsPaths = false;
 let paths: Paths | null = null;
@@ -69,14 +72,17 @@ let paths: Paths | null = null;
 let choice = 0;
 
 const controls = new Controls(EXAMPLES, INITIAL, {
-  settings: update,
+  settings: change,
   field: () => {
     forgetDecisions();
     update();
   },
   epsilon: moveEpsilon,
   delta: showDelta,
-  persistence: (value) => reading.setThreshold(value),
+  persistence: (value) => {
+    reading.setThreshold(value);
+    change();
+  },
   layers: (layers) => eachViewer((viewer) => viewer.setLayers(layers)),
   example: (id) => void openExample(EXAMPLES.find((example) => example.id === id) ?? OPENING),
   meshFile: (file) => openFiles([file]),
@@ -97,9 +103,10 @@ const reading = new Reading({
     controls.writePersistence(value);
     controls.changePersistence();
   },
-  overrides: update,
+  overrides: change,
   toggle: (ends) => constraining.toggle(ends),
   lit: light,
+  kept: markExtrema,
 });
 const constraining = new Constraining({
   picked: update,
@@ -111,6 +118,7 @@ const constraining = new Constraining({
   point: (point) => {
     for (const panel of Object.values(panels)) panel.setSpot(point);
   },
+  extremum: (vertex) => reading.toggleAt(vertex),
 });
 const moving = new MovingEpsilon({
   preview: (whole) => client.run({ kind: 'preview', settings: readSettings(), whole }),
@@ -123,7 +131,7 @@ const choosing = new Choosing({
   },
   choose: (rule) => ask({ kind: 'choose', rule }),
 });
-for (const handle of [input('epsilon'), ...choosing.handles]) moving.holdBy(handle);
+for (const handle of [input('epsilon'), input('persistence'), ...choosing.handles]) moving.holdBy(handle);
 eachViewer((viewer) => {
   viewer.onPick = (vertex) => constraining.toggle([vertex]);
 });
@@ -208,6 +216,8 @@ function show(part: Part): void {
     case 'pairs':
       reading.setPairs(part.pairs, part.range);
       return constraining.setPairs(part.pairs);
+    case 'pairsAfter':
+      return reading.setResult(part.pairs);
     case 'lines':
       panels[part.side].viewer?.setLines(['levels'], part.lines ? [part.lines] : []);
       if (part.side === 'before') colors.setLevels(part.levels);
@@ -225,6 +235,8 @@ function show(part: Part): void {
       return colors.setDifference(part);
     case 'report':
       controls.setSaveable(true);
+      exact = part.report.exact;
+      markExtrema();
       report.show(part.report);
       return showReport(part.report);
     case 'unsmoothed':
@@ -241,10 +253,11 @@ function show(part: Part): void {
       choosing.setChosen(part.choice);
       return update();
     case 'previewed':
-      return showPreview(part.error);
+      return showPreview(part.error === null ? EXACT_PREVIEW : `Preview, error ${about(part.error)}`);
     case 'preview':
       // Of the field after there are no counts at other δ on the way.
       reading.setHierarchy('after', null);
+      reading.setResult(null);
       return panels.after.setPreview(part);
     case 'saved':
       return download(part.name, part.bytes);
@@ -280,6 +293,8 @@ function showValues({ side, label, range, shades, gap, gaps }: Extract<Part, { k
 function clearAfter(text: string): void {
   panels.after.clear(text);
   reading.setHierarchy('after', null);
+  reading.setResult(null);
+  exact = null;
   colors.clearDifference();
   moving.canPreview = false;
   choosing.clear(text);
@@ -368,6 +383,7 @@ function complain(code: string, message: string): void {
 /** What does not wait for the worker. */
 function showChoices(): void {
   const { coloring, method, rule, epsilon } = controls.read();
+  markExtrema();
   choosing.setEpsilon(epsilon);
   colors.name(coloring);
   constraining.setMethod(method, rule);
@@ -382,13 +398,35 @@ function showDelta(delta: number): void {
 /** Shown from the family at once, where there is one, and solved for when it rests. */
 function moveEpsilon(): void {
   choosing.setEpsilon(controls.read().epsilon);
-  moving.moved();
+  moving.moved(canPreviewExtrema());
 }
 
-/** `error`: how far the field that is shown may be from the exact one, in comparison with it; null where it is that. */
-function showPreview(error: number | null): void {
-  document.documentElement.toggleAttribute('data-preview', error !== null);
-  if (error !== null) status.preview(`Preview, error ${about(error)}`);
+/** A change to the choice of exact extrema has a preview; anything else is asked for. */
+function change(): void {
+  const settings = readSettings();
+  if (!canPreviewExtrema() || smoothingKey(settings) === smoothingKey(accepted)) return update();
+  showChoices();
+  moving.moved(true);
+}
+
+/** A worker that broke down has to be given the mesh first. */
+function canPreviewExtrema(): boolean {
+  return isExact(controls.read()) && shown !== null && !client.lost;
+}
+
+/** The chosen extrema have rings, as constraints have. */
+function markExtrema(): void {
+  const settings = controls.read();
+  const isOn = isExact(settings);
+  const isByField = settings.exact.of === 'smoothed';
+  reading.setElsewhere(isOn && isByField ? BY_SMOOTHED : '');
+  constraining.setExtrema(isOn ? foundOf(isByField ? extremaOf(exact) : reading.kept) : null, isByField);
+}
+
+/** Null where what is shown is no preview. */
+function showPreview(text: string | null): void {
+  document.documentElement.toggleAttribute('data-preview', text !== null);
+  if (text !== null) status.preview(text);
 }
 
 /** The ways between pairs are asked for when somebody first points at one. */

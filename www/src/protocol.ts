@@ -11,6 +11,7 @@ import type {
   EpsilonRule,
   Link,
   MeshTopology,
+  Prescribed,
   SmoothReport,
 } from 'morse-smooth';
 import type { MeshFormat } from 'morse-smooth/files';
@@ -72,8 +73,13 @@ export interface AfterReport {
   pairsRemoved: number | null;
   /** Extrema that were to go, and without which there is no field on the mesh. */
   unavoidable: number | null;
+  /** Of the method with exactly the chosen extrema. */
+  exact: ExactReport | null;
   milliseconds: number;
 }
+
+/** What the package says of a field with exactly the chosen extrema. */
+export type ExactReport = Omit<Prescribed, 'values' | 'report' | 'reports'>;
 
 /** The constrained vertices, ascending: those that a rule found, with their values, and all with those next to them. */
 export interface Found {
@@ -185,7 +191,7 @@ export type Request =
   | { kind: 'open'; file: File; added: File[]; settings: Settings; smooth: boolean }
   | { kind: 'addField'; file: File; settings: Settings }
   | { kind: 'update'; settings: Settings }
-  /** For another ε alone, while that moves. `whole`: all that the side after shows, not only what can be had in a frame's time. */
+  /** For another ε or, with exact extrema, another choice alone, while that moves. `whole`: all that the side after shows, not only what can be had in a frame's time. */
   | { kind: 'preview'; settings: Settings; whole: boolean }
   | { kind: 'choose'; rule: EpsilonRule }
   | { kind: 'save' }
@@ -212,6 +218,8 @@ export type Part =
   /** `counts` and `solids`: at δ = 0. `shape`: of the part of the mesh that has values. */
   | { kind: 'hierarchy'; side: Side; counts: CriticalCounts; hierarchy: Hierarchy; solids: Solids[]; shape: Shape }
   | { kind: 'pairs'; range: [number, number]; pairs: Pairs }
+  /** Of the field after. */
+  | { kind: 'pairsAfter'; pairs: Pairs }
   /** `levels`: ascending. */
   | { kind: 'lines'; side: Side; lines: Lines | null; levels: number[] }
   | { kind: 'complex'; side: Side; lines: Lines[] }
@@ -235,8 +243,8 @@ export type Part =
   | { kind: 'choices'; choices: ChosenEpsilon[] }
   /** The answer to `choose`. */
   | { kind: 'chosen'; choice: ChosenEpsilon }
-  /** Comes before what is shown of that ε; `error` as above. */
-  | { kind: 'previewed'; error: number }
+  /** Comes before what is shown on the way; `error` as above, null for a field with exactly the chosen extrema. */
+  | { kind: 'previewed'; error: number | null }
   /** Critical points at δ; everything else of the side after is out of date. */
   | { kind: 'preview'; shades: Float32Array; vertices: Uint32Array; kinds: Int8Array; counts: CriticalCounts }
   | { kind: 'saved'; name: string; bytes: Uint8Array<ArrayBuffer> };

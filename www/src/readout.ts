@@ -1,5 +1,6 @@
 /** The facts of the mesh and, in a line, what was last done to the field; smoothing/report.ts has all of it. */
 import { duration, element, short, whole } from './dom';
+import { surplus } from './smoothing/exact-report';
 import type { AfterReport, MeshSummary } from './protocol';
 
 const text = (id: string, value: string): void => {
@@ -8,13 +9,16 @@ const text = (id: string, value: string): void => {
 
 const IDS = ['read-linf', 'read-sobolev', 'read-time'] as const;
 
-export function showReport({ lInfinity, sobolevBefore, sobolevAfter, milliseconds }: AfterReport): void {
+export function showReport({ lInfinity, sobolevBefore, sobolevAfter, milliseconds, exact }: AfterReport): void {
+  element('#readout-energy', HTMLElement).hidden = exact === null;
+  if (exact) text('read-energy', surplus(exact));
   text('read-linf', `${short(100 * lInfinity)} % of the range`);
   text('read-sobolev', `${short(sobolevBefore)} → ${short(sobolevAfter)}`);
   text('read-time', duration(milliseconds));
 }
 
 export function clearReport(): void {
+  element('#readout-energy', HTMLElement).hidden = true;
   for (const id of IDS) text(id, '–');
 }
 

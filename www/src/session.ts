@@ -11,7 +11,7 @@ import type { Solids } from 'morse-smooth/snapshot';
 import { colorBasins } from './basins';
 import { complexLines, differencePart, levelLines, lookOf, pictureOf, rangeOption } from './drawing';
 import { Refusal } from './failure';
-import { arcsOf, hierarchyOf, levelsOf, pairsPart } from './findings';
+import { arcsOf, hierarchyOf, levelsOf, pairsOf } from './findings';
 import { fieldFrom, gapsIn, omitting, shapeOf } from './gaps';
 import type { Field } from './gaps';
 import { meanEdgeOf, rangeOf } from './measures';
@@ -25,6 +25,7 @@ import {
   constraintsKey,
   familyKey,
   hasConstraints,
+  isExact,
   smoothingKey,
   smoothingOf,
   suffixOf,
@@ -186,7 +187,7 @@ export class Session {
       : null;
     if (isDue('before.pairs', field) || !pairs) {
       pairs = this.mesh.persistence(values, holes);
-      parts.push(pairsPart(pairs, values));
+      parts.push({ kind: 'pairs', range: rangeOf(values), pairs: pairsOf(pairs, values) });
     }
     if (hasConstraints(wanted) && isDue('before.constraints', constraintsKey({ ...wanted, field }))) {
       found = findConstraints(this.mesh, wanted, values, pairs);
@@ -265,10 +266,12 @@ export class Session {
     this.families.prepare(job, send);
   }
 
-  /** Shows another ε, without a report, where its field is at hand; what is saved stays what it was. */
+  /** Shows another ε or choice, without a report, where its field is at hand; what is saved stays what it was. */
   preview(wanted: Settings, whole: boolean, send: Send): void {
     const settings = { ...wanted, field: this.known(wanted.field) };
-    const read = this.families.read(familyKey(settings), settings.epsilon);
+    const read = isExact(settings)
+      ? this.previewExact(settings, send)
+      : this.families.read(familyKey(settings), settings.epsilon);
     if (!read) return;
     const { values, error } = read;
     send({ kind: 'previewed', error });
@@ -279,8 +282,21 @@ export class Session {
     const before = this.fields.get(settings.field)!;
     this.corners ??= this.scene.surface().vertices;
     send(quickPart(this.mesh, values, this.corners, before, settings));
+    if (isExact(settings)) send(this.pairsAfter(values));
     if (isByBasins(coloring)) send(this.basins('after', values, coloring, 0).part);
     if (coloring === 'difference') send(differencePart(this.scene, before.known, values));
+  }
+
+  private previewExact(settings: Settings, send: Send): { values: Float64Array; error: null } | null {
+    const { pairs } = this;
+    if (!pairs || settings.field !== this.settings?.field) return null;
+    try {
+      const { values } = this.methods.exact(this.fields.get(settings.field)!, settings, pairs, true);
+      return { values, error: null };
+    } catch (error) {
+      this.endPreview(send);
+      throw error;
+    }
   }
 
   /** After a preview that came to nothing the page gets back what it had. */
@@ -323,6 +339,7 @@ export class Session {
       if (hasLines) parts.push({ kind: 'lines', side: 'after', lines: levelLines(list), levels: this.levels });
       if (hasComplex) parts.push({ kind: 'complex', side: 'after', lines: complexLines(list) });
     }
+    if (isDue('after.pairs', key)) parts.push(this.pairsAfter(values));
     // The colors follow those on the left, which depend on the threshold.
     if (isByBasins(coloring) && isDue('after.basins', `${key} ${persistence} ${coloring}`))
       parts.push(this.basins('after', values, coloring, 0).part);
@@ -369,6 +386,10 @@ export class Session {
     // For the index sum, which is checked against the Euler characteristic.
     const { counts } = this.mesh.criticalPoints(values, omitting(values));
     return { kind: 'hierarchy', side, counts, hierarchy, solids, shape: shapeOf(this.mesh, values) };
+  }
+
+  private pairsAfter(values: Float64Array): Part {
+    return { kind: 'pairsAfter', pairs: pairsOf(this.mesh.persistence(values, omitting(values)), values) };
   }
 
   private basins(side: Side, values: Float64Array, coloring: 'minima' | 'maxima', persistence: number) {

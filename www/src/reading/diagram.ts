@@ -2,6 +2,8 @@
 import uPlot from 'uplot';
 import { short } from '../dom';
 import { ACCENT, axis, FAMILY, INK, MAXIMUM, MINIMUM, plotIn, pointIn, SOFT } from './plot';
+import type { Pairs } from '../protocol';
+import { drawResult } from './result';
 import type { Selection } from './selection';
 
 /** More dots than this cover each other, and the least persistent ones lie on the diagonal. */
@@ -26,6 +28,10 @@ export interface DiagramEvents {
 export class Diagram {
   private readonly plot: uPlot;
   private pointed: number | null = null;
+  /** Of the field after. */
+  private result: Pairs | null = null;
+  /** Whether dots are only looked at. */
+  private isIdle = false;
 
   constructor(
     private readonly box: HTMLElement,
@@ -65,6 +71,17 @@ export class Diagram {
     } else this.plot.redraw(false, false);
   }
 
+  setResult(pairs: Pairs | null): void {
+    if (!pairs && !this.result) return;
+    this.result = pairs;
+    this.plot.redraw(false, false);
+  }
+
+  setIdle(isIdle: boolean): void {
+    this.isIdle = isIdle;
+    this.plot.redraw(false, false);
+  }
+
   private get drawn(): number {
     return Math.min(MOST, this.selection.pairs?.extrema.length ?? 0);
   }
@@ -82,6 +99,7 @@ export class Diagram {
     for (const kept of [false, true])
       for (let pair = this.drawn - 1; pair >= 0; pair--) if (selection.isKept(pair) === kept) this.drawPair(pair);
     this.drawEssential();
+    if (this.result) drawResult(this.plot, selection.pairs, this.result, this.edge);
     if (this.pointed !== null) this.drawPair(this.pointed);
     ctx.restore();
   }
@@ -117,7 +135,7 @@ export class Diagram {
     const { kinds, birth, death } = this.selection.pairs!;
     const isPointed = pair === this.pointed;
     this.dot(this.x(birth[pair]!), this.y(death[pair]!), kinds[pair]!, {
-      filled: this.selection.isKept(pair),
+      filled: this.selection.isKept(pair) && !this.isIdle,
       ring: this.selection.isDecided(pair),
       halo: isPointed,
     });
@@ -129,7 +147,7 @@ export class Diagram {
     const { chosen } = this.selection;
     essentialValues.forEach((value, k) =>
       this.dot(this.x(value), this.y(this.edge), essentialKinds[k]!, {
-        filled: chosen?.has(essential[k]!) ?? true,
+        filled: chosen?.has(essential[k]!) ?? !this.isIdle,
         ring: false,
         halo: false,
       }),
@@ -163,7 +181,8 @@ export class Diagram {
     ctx.fillStyle = how.filled && kind !== 0 ? color : 'rgb(255 255 255 / 70%)';
     ctx.fill();
     ctx.strokeStyle = kind === 0 || how.filled ? INK : color;
-    ctx.globalAlpha = how.filled || how.halo ? 1 : 0.6;
+    // Where crosses are what counts, what is dropped stands back further.
+    ctx.globalAlpha = how.filled || how.halo ? 1 : this.result ? 0.35 : 0.6;
     ctx.stroke();
     ctx.globalAlpha = 1;
     if (how.ring) {
@@ -211,7 +230,7 @@ export class Diagram {
       if (dragging) return this.events.threshold(this.thresholdAt(x, y));
       const pair = this.nearest(x, y);
       this.point(pair);
-      over.style.cursor = pair !== null ? 'pointer' : this.isOnLine(x, y) ? 'move' : 'default';
+      over.style.cursor = pair !== null && !this.isIdle ? 'pointer' : this.isOnLine(x, y) ? 'move' : 'default';
     });
     over.addEventListener('pointerup', () => {
       dragging = false;

@@ -24,6 +24,8 @@ export interface ReadingEvents {
   /** A pair was clicked while pairs are judged by constrained vertices. */
   toggle(ends: number[]): void;
   lit(pair: Lit | null): void;
+  /** Other pairs are kept, or the field has others. */
+  kept(): void;
 }
 
 export class Reading {
@@ -33,6 +35,10 @@ export class Reading {
   private readonly hierarchies: Partial<Record<Side, Hierarchy>> = {};
   private delta = 0;
   private pointed: number | null = null;
+  /** Why the pairs are not those that the threshold is for; empty where they are. */
+  private elsewhere = '';
+  /** What a click on the surface has come to. */
+  private answer = '';
 
   private readonly curveText = element('#curve-values', HTMLElement);
   private readonly pairText = element('#pair-values', HTMLElement);
@@ -52,8 +58,7 @@ export class Reading {
           const { extrema, saddles } = this.selection.pairs!;
           return events.toggle([extrema[pair]!, saddles[pair]!]);
         }
-        this.selection.toggle(pair);
-        this.decided();
+        this.decide(pair);
       },
     });
     this.reset.addEventListener('click', () => {
@@ -76,8 +81,10 @@ export class Reading {
 
   setPairs(pairs: Pairs, range: [number, number]): void {
     this.selection.setPairs(pairs, range);
+    this.answer = '';
     this.diagram.update(true);
     this.describePair();
+    this.events.kept();
   }
 
   /** What the controls say; nothing is reported back. */
@@ -108,6 +115,46 @@ export class Reading {
     this.redraw();
   }
 
+  /** The extrema that are kept, in the order of their numbers, with those that have no partner. */
+  get kept(): number[] {
+    const { pairs } = this.selection;
+    if (!pairs) return [];
+    const paired = pairs.extrema.filter((_, pair) => this.selection.isKept(pair));
+    const alone = pairs.essential.filter((_, k) => pairs.essentialKinds[k] !== 0);
+    return [...paired, ...alone].sort((a, b) => a - b);
+  }
+
+  /** Of the field after; null for none. */
+  setResult(pairs: Pairs | null): void {
+    this.diagram.setResult(pairs);
+  }
+
+  /** A sentence where pairs are not decided about here; empty where they are. */
+  setElsewhere(sentence: string): void {
+    if (sentence === this.elsewhere) return;
+    this.elsewhere = sentence;
+    this.diagram.setIdle(sentence !== '');
+    this.describePair();
+  }
+
+  /** Keeps or drops the pair that the vertex belongs to. */
+  toggleAt(vertex: number): void {
+    const { pairs } = this.selection;
+    if (!pairs || this.elsewhere) return;
+    const pair = pairs.extrema.includes(vertex) ? pairs.extrema.indexOf(vertex) : pairs.saddles.indexOf(vertex);
+    if (pair >= 0) return this.decide(pair);
+    this.answer = pairs.essential.includes(vertex)
+      ? `Vertex ${vertex} has no partner, so it always stays.`
+      : `Vertex ${vertex} is no critical point of the input.`;
+    this.describePair();
+  }
+
+  private decide(pair: number): void {
+    if (this.elsewhere) return;
+    this.selection.toggle(pair);
+    this.decided();
+  }
+
   private decided(): void {
     this.redraw();
     this.events.overrides(this.selection.overrides);
@@ -119,8 +166,10 @@ export class Reading {
   }
 
   private redraw(): void {
+    this.answer = '';
     this.diagram.update(false);
     this.describePair();
+    this.events.kept();
   }
 
   private point(pair: number | null): void {
@@ -164,6 +213,7 @@ export class Reading {
     const { pairs } = selection;
     if (!pairs) return;
     if (this.pointed === null) {
+      if (this.answer || this.elsewhere) return this.sayPair(this.answer || this.elsewhere);
       const { minima, maxima, dropped } = selection.counts();
       const hidden = pairs.extrema.length - MOST;
       const more = hidden > 0 ? `; the ${whole(hidden)} least persistent pairs are not drawn` : '';

@@ -19,11 +19,14 @@ export interface ConstrainingEvents {
   /** Which vertices are in the set, where the threshold is not what decides; null where it is. */
   chosen(features: ReadonlySet<number> | null): void;
   point(point: Point | null): void;
+  /** A vertex was clicked while the chosen extrema are what is marked. */
+  extremum(vertex: number): void;
 }
 
 export class Constraining {
   private picked: number[] = [];
   private found = NONE;
+  private extrema: { found: Found; areFixed: boolean } | null = null;
   private method: Method = 'tikhonov';
   private rule: Rule = 'persistence';
   private components = 1;
@@ -90,6 +93,13 @@ export class Constraining {
     this.show();
   }
 
+  /** Chosen extrema, which are marked in place of constraints; null for none. `areFixed`: they are not chosen one by one. */
+  setExtrema(found: Found | null, areFixed: boolean): void {
+    if (!found && !this.extrema) return;
+    this.extrema = found && { found, areFixed };
+    this.show();
+  }
+
   setMethod(method: Method, rule: Rule): void {
     if (method === this.method && rule === this.rule) return;
     Object.assign(this, { method, rule });
@@ -98,6 +108,7 @@ export class Constraining {
 
   /** Takes all of them out where all are in, else in. A rule's set is taken over first, since it is the one that one sees. */
   toggle(vertices: readonly number[]): void {
+    if (this.extrema) return vertices.forEach((vertex) => this.events.extremum(vertex));
     if (!this.isOn) return;
     this.takeOver();
     const set = new Set(this.picked);
@@ -125,8 +136,8 @@ export class Constraining {
   }
 
   private show(): void {
-    const { isOn } = this;
-    const found = isOn ? this.found : NONE;
+    const { isOn, extrema } = this;
+    const found = extrema?.found ?? (isOn ? this.found : NONE);
     const { features, all } = found;
     const chosen = new Set(features);
     const ordinary = ordinaryPoints(this.critical, found);
@@ -135,7 +146,7 @@ export class Constraining {
       this.table.setPoints([...this.critical, ...ordinary]);
     this.listed = this.critical;
     this.ordinary = ordinary.length;
-    this.table.setChosen(chosen, isOn);
+    this.table.setChosen(chosen, extrema ? !extrema.areFixed : isOn);
     this.text.textContent = `${whole(all.length)} constrained (${whole(features.length)} feature ${features.length === 1 ? 'point' : 'points'})`;
     this.others.hidden = this.components === 1 && features.length > 0;
     this.takeOverButton.disabled = this.rule === 'picked';

@@ -1,6 +1,7 @@
 /** The part of the form that chooses a method: shows only what that method takes. */
 import { clamp, element, input, select, short } from '../dom';
 import type { Missing } from '../gaps';
+import { ExactControls } from './exact-controls';
 import { byElements, canFill, INITIAL_SMOOTHING, TAUBIN_MU } from './settings';
 import type { Method, Rule, Smoothing } from './settings';
 
@@ -39,6 +40,7 @@ export class SmoothingControls {
   private readonly gaps = element('#gaps', HTMLElement);
   private readonly missing = select('missing');
   private readonly filter = select('filter');
+  private readonly exact: ExactControls;
   private readonly rule = select('rule');
   private readonly stars = input('stars');
   private readonly unconstrained = select('unconstrained');
@@ -80,6 +82,10 @@ export class SmoothingControls {
     private readonly changed: () => void,
     private readonly moved: () => void,
   ) {
+    this.exact = new ExactControls(() => {
+      this.show();
+      changed();
+    });
     this.bilateral.sigmaValue.factor = 100;
     writeQuantity(this.lowPass.mu, TAUBIN_MU);
     this.wire();
@@ -98,6 +104,7 @@ export class SmoothingControls {
       energy: this.energy.value as Smoothing['energy'],
       lowPass: this.filter.value === 'diffusion' ? { ...lowPass, mu: 0 } : lowPass,
       bilateral: readAll(this.bilateral),
+      exact: this.exact.read(),
       rule: this.rule.value as Rule,
       clusters: readQuantity(this.clusters),
       stars: this.stars.checked,
@@ -121,6 +128,7 @@ export class SmoothingControls {
     // The box keeps its number while there is no second step.
     writeAll(this.lowPass, { ...lowPass, mu: lowPass.mu === 0 ? readQuantity(this.lowPass.mu) : lowPass.mu });
     writeAll(this.bilateral, bilateral);
+    this.exact.write(choices.exact);
     writeQuantity(this.clusters, choices.clusters);
     writeQuantity(this.wavelength, choices.wavelength);
     this.show();
@@ -152,19 +160,21 @@ export class SmoothingControls {
 
   /** Only what the method takes. */
   private show(): void {
-    const { method, metric } = this.read();
-    for (const [key, value] of [
-      ['forMethod', byElements({ method, metric }) ? 'finiteElements' : method],
-      ['forFilter', this.filter.value],
-      ['forRule', this.rule.value],
-    ] as const) {
+    const { method, metric, exact } = this.read();
+    const kinds: [string, string[]][] = [
+      ['forMethod', kindsOf(method, byElements({ method, metric }))],
+      ['forFilter', [this.filter.value]],
+      ['forRule', [this.rule.value]],
+      ['forExact', [exact.of]],
+    ];
+    for (const [key, values] of kinds) {
       const name = key.replace(/[A-Z]/, (letter) => `-${letter.toLowerCase()}`);
       for (const part of document.querySelectorAll<HTMLElement>(`[data-${name}]`))
-        part.hidden = !part.dataset[key]!.split(' ').includes(value);
+        part.hidden = !part.dataset[key]!.split(' ').some((value) => values.includes(value));
     }
     this.gaps.hidden = !this.hasGaps || !canFill({ method });
-    const isSimplify = method === 'simplify';
-    element('#save', HTMLButtonElement).textContent = `Save ${isSimplify ? 'simplified' : 'smoothed'} field (PLY)`;
+    const made = { simplify: 'simplified', prescribe: 'exact' }[method as string] ?? 'smoothed';
+    element('#save', HTMLButtonElement).textContent = `Save ${made} field (PLY)`;
     this.wavelengthUnits.textContent = `${short(readQuantity(this.wavelength) * this.meanEdge)} in units of the mesh. Waves of this length keep half of their amplitude.`;
     const { radius, sigmaDistance, sigmaValue } = readAll(this.bilateral);
     this.units.textContent =
@@ -204,6 +214,13 @@ export class SmoothingControls {
       });
     }
   }
+}
+
+/** As what the method is named in the form's `data-for-method`. */
+function kindsOf(method: Method, isByElements: boolean): string[] {
+  const kinds: string[] = method === 'prescribe' ? ['prescribe'] : [];
+  if (isByElements) return [...kinds, 'finiteElements', `${method}Elements`];
+  return method === 'prescribe' ? [...kinds, 'prescribeEpsilon'] : [method];
 }
 
 function quantities<Name extends string>(

@@ -1,6 +1,6 @@
 /**
- * ε while it moves: previews are shown as long as there is a family to take them from, and the exact solve is asked for when it rests.
- * Without a family every position is solved for, as for any other setting.
+ * ε while it moves, and the choice of exact extrema: previews are shown as long as there is something to take them from, and the exact
+ * solve is asked for when it rests. Without it every position is solved for, as for any other setting.
  */
 
 /** Milliseconds without a change, after which it rests; while the pointer holds it, until it is let go. */
@@ -39,8 +39,9 @@ export class MovingEpsilon {
     });
   }
 
-  moved(): void {
-    if (!this.canPreview) return this.events.rest();
+  /** `anyway`: even without a family. */
+  moved(anyway = false): void {
+    if (!this.canPreview && !anyway) return this.events.rest();
     this.isMoving = true;
     this.events.preview(false);
     window.clearTimeout(this.timer);

@@ -1,13 +1,14 @@
 /** The worker's side of the methods: runs the chosen one and reports on it. */
 import { Smoother } from 'morse-smooth';
-import type { Metric, PersistencePairs, Smoothed, SmoothingFamily, TriMesh } from 'morse-smooth';
+import type { Metric, PersistencePairs, Prescribed, Smoothed, SmoothingFamily, TriMesh } from 'morse-smooth';
 import { keptExtrema, thresholdOf } from '../findings';
 import { omitting } from '../gaps';
 import type { Field } from '../gaps';
 import { rangeOf } from '../measures';
-import type { AfterReport, Found, Settings } from '../protocol';
+import type { AfterReport, ExactReport, Found, Settings } from '../protocol';
 import { hasOverrides, keptPairs } from '../reading/pairs';
-import { byElements } from './settings';
+import { prescribed } from './exact';
+import { byElements, isExact } from './settings';
 
 /** A field and what became of it; the time is measured around it. */
 export type Result = Omit<AfterReport, 'milliseconds'> & { values: Float64Array };
@@ -32,7 +33,8 @@ export class Methods {
   /** `found`: of the methods with constraints. */
   run(field: Field, settings: Settings, pairs: PersistencePairs, found: Found | null): Result {
     if (settings.method === 'simplify') return this.simplified(field.known, settings, pairs);
-    const { values: smoothed, report } = this.smoothed(field, settings, found);
+    const exact = isExact(settings) ? this.exact(field, settings, pairs, false) : null;
+    const { values: smoothed, report } = exact ?? this.smoothed(field, settings, found);
     const { lInfinity, sobolevBefore, sobolevAfter, before, after } = report;
     return {
       values: smoothed,
@@ -47,7 +49,13 @@ export class Methods {
       smoothing: report,
       pairsRemoved: null,
       unavoidable: null,
+      exact: exact && withoutField(exact),
     };
+  }
+
+  /** A field with exactly the chosen extrema; for a preview one that takes no longer than smoothing. */
+  exact(field: Field, settings: Settings, pairs: PersistencePairs, preview: boolean): Prescribed {
+    return prescribed(this.smootherFor(settings), field, settings, { pairs, meanEdge: this.meanEdge, preview });
   }
 
   /** Of all ε at once, as far as one factorisation takes it: best near the ε of the settings. */
@@ -99,7 +107,9 @@ export class Methods {
 
   /** Its operators and symbolic factors serve every method, ε and field, as long as the operator is the same. */
   private smootherFor(settings: Settings): Smoother {
-    const { weights, bounds } = settings;
+    const { weights } = settings;
+    // What extrema are prescribed for is not linear in the values.
+    const bounds = settings.bounds && !isExact(settings);
     const operator = byElements(settings) ? ({ operator: 'fem' } as const) : { weights };
     const wanted = JSON.stringify([operator, bounds]);
     if (!this.smoother || this.made !== wanted) {
@@ -137,8 +147,15 @@ export class Methods {
       smoothing: null,
       pairsRemoved: Math.max(0, dropped - unavoidable.length),
       unavoidable: unavoidable.length,
+      exact: null,
     };
   }
+}
+
+/** What is sent is given away. */
+function withoutField({ values: _values, report: _report, reports: _reports, ...exact }: Prescribed): ExactReport {
+  const { minima, maxima, unavoidable } = exact;
+  return { ...exact, minima: minima.slice(), maxima: maxima.slice(), unavoidable: unavoidable.slice() };
 }
 
 const sobolevOf = (mesh: TriMesh, values: Float64Array): number => mesh.smoothness(values, omitting(values)).sobolev;

@@ -1,10 +1,11 @@
 /** The report as a panel: everything that is known of the last smoothing, in words and with units. */
 import { duration, element, short, whole } from '../dom';
 import type { AfterReport } from '../protocol';
+import { exactGroup } from './exact-report';
 import type { Method } from './settings';
 
 /** A name, what it says, what it means, and the id by which it is found. */
-interface Line {
+export interface Line {
   name: string;
   value: string;
   meaning: string;
@@ -13,12 +14,13 @@ interface Line {
   isLong?: boolean;
 }
 
-interface Group {
+export interface Group {
   title: string;
   lines: (Line | null)[];
 }
 
 const METHODS: Record<Method, string> = {
+  prescribe: 'Exact extrema',
   tikhonov: 'Tikhonov',
   interpolate: 'Interpolation',
   leastSquares: 'Least squares',
@@ -42,7 +44,8 @@ export class ReportPanel {
   }
 
   show(report: AfterReport): void {
-    const groups = [change(report), constraints(report), solver(report)];
+    const { exact } = report;
+    const groups = [exact && exactGroup(exact), change(report), constraints(report), solver(report)];
     this.root.replaceChildren(counts(report), ...groups.flatMap((group) => (group ? [groupOf(group)] : [])));
   }
 }
@@ -82,6 +85,7 @@ function counts({ method, settings, smoothing, before, after }: AfterReport): HT
 /** With the number of the paper's equation, where it is one. */
 function methodOf(method: Method, { metric, energy, isDiffusion }: AfterReport['settings'], equation?: string): string {
   const kinds: Partial<Record<Method, string>> = {
+    prescribe: metric === 'finiteElements' ? ', finite elements' : '',
     tikhonov: metric === 'finiteElements' ? ', finite elements' : '',
     interpolate: `, ${energy}`,
     lowPass: isDiffusion ? ', diffusion' : ', λ | μ',
@@ -137,6 +141,7 @@ function change(report: AfterReport): Group {
 function metricOf({ method, settings }: AfterReport): { name: string; meaning: string } | null {
   const unit = 'the field scaled by its range before';
   switch (method) {
+    case 'prescribe':
     case 'tikhonov': {
       const by = { mass: 'by mass', lumped: 'by lumped mass', identity: 'Euclidean', finiteElements: 'by area' }[
         settings.metric
@@ -191,7 +196,7 @@ function principle({
     : `void: smallest weight ${short(smallestWeight)}; ${free(extrema)} among neighbours${onMesh}`;
 }
 
-function solver({ smoothing, milliseconds }: AfterReport): Group {
+function solver({ smoothing, milliseconds, exact }: AfterReport): Group {
   const time = line('Time', duration(milliseconds), 'In the background worker, report included', 'report-time');
   if (!smoothing) return { title: 'Work', lines: [time] };
   const { route, precision, unknowns, factorNonzeros, relativeResidual, refinementSteps, iterations } =
@@ -209,7 +214,8 @@ function solver({ smoothing, milliseconds }: AfterReport): Group {
       isSolved
         ? line('Refinement', `${refinementSteps} ${refinementSteps === 1 ? 'step' : 'steps'}`, 'Corrections of the first solution', 'report-refinement') // prettier-ignore
         : null,
-      iterations > 0
+      // With exact extrema they stand beside the choice.
+      iterations > 0 && !exact
         ? line('Iterations', whole(iterations), 'Of conjugate gradients, or of the filter', 'report-iterations')
         : null,
       time,

@@ -3,7 +3,7 @@ import type { LaplacianWeights, Metric } from 'morse-smooth';
 import type { Missing } from '../gaps';
 import type { Settings } from '../protocol';
 
-export type Method = 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral' | 'simplify';
+export type Method = 'prescribe' | 'tikhonov' | 'interpolate' | 'leastSquares' | 'lowPass' | 'bilateral' | 'simplify';
 /** What finds the constrained vertices: all critical points, those left at δ, persistent pairs, clusters of values, or the user. */
 export type Rule = 'critical' | 'delta' | 'persistence' | 'kMeans' | 'picked';
 
@@ -22,6 +22,15 @@ export interface Bilateral {
   sigmaValue: number;
 }
 
+/** Of the method whose result has exactly the chosen extrema. */
+export interface Exact {
+  /** Whose pairs the threshold is for. The decisions in the diagram are about those of the input, and count for these alone. */
+  of: 'input' | 'smoothed';
+  keepValues: boolean;
+  /** The least height of every chosen extremum, relative to the range; 0 for none in particular. */
+  prominence: number;
+}
+
 export interface Smoothing {
   method: Method;
   weights: LaplacianWeights;
@@ -37,6 +46,7 @@ export interface Smoothing {
   energy: 'harmonic' | 'biharmonic';
   lowPass: LowPass;
   bilateral: Bilateral;
+  exact: Exact;
   rule: Rule;
   clusters: number;
   stars: boolean;
@@ -56,6 +66,7 @@ export const INITIAL_SMOOTHING: Smoothing = {
   energy: 'harmonic',
   lowPass: { iterations: 20, lambda: 0.5, mu: 0 },
   bilateral: { iterations: 5, radius: 3, sigmaDistance: 1.5, sigmaValue: 0.1 },
+  exact: { of: 'input', keepValues: false, prominence: 0 },
   rule: 'persistence',
   clusters: 20,
   stars: true,
@@ -65,6 +76,10 @@ export const INITIAL_SMOOTHING: Smoothing = {
 
 /** Of Taubin's λ|μ filter beside the default λ. */
 export const TAUBIN_MU = -0.53;
+
+export function isExact({ method }: { method: Method }): boolean {
+  return method === 'prescribe';
+}
 
 export function hasConstraints({ method }: { method: Method }): boolean {
   return method === 'interpolate' || method === 'leastSquares';
@@ -76,17 +91,19 @@ export function canFill({ method }: { method: Method }): boolean {
 }
 
 export function byElements({ method, metric }: Pick<Smoothing, 'method' | 'metric'>): boolean {
-  return method === 'tikhonov' && metric === 'finiteElements';
+  return (method === 'tikhonov' || isExact({ method })) && metric === 'finiteElements';
 }
 
 /** Finite elements have a wavelength instead. */
 export function usesEpsilon({ method, metric }: Pick<Smoothing, 'method' | 'metric'>): boolean {
-  return method === 'leastSquares' || (method === 'tikhonov' && !byElements({ method, metric }));
+  return (
+    method === 'leastSquares' || ((method === 'tikhonov' || isExact({ method })) && !byElements({ method, metric }))
+  );
 }
 
 /** Whether the threshold and the decisions about pairs have a part in what the method does. */
 export function usesPairs({ method, rule }: { method: Method; rule: Rule }): boolean {
-  return method === 'simplify' || (hasConstraints({ method }) && rule === 'persistence');
+  return method === 'simplify' || isExact({ method }) || (hasConstraints({ method }) && rule === 'persistence');
 }
 
 export function usesDelta({ method, rule }: { method: Method; rule: Rule }): boolean {
@@ -117,8 +134,11 @@ export function smoothingKey(settings: Settings): string {
   const { field, method, weights, bounds, epsilon, metric, wavelength } = settings;
   const { energy, unconstrained, persistence, overrides } = settings;
   const constraints = hasConstraints(settings) ? constraintsKey(settings) : '';
+  const { exact } = settings;
+  const level = byElements(settings) ? wavelength : epsilon;
   const by = {
-    tikhonov: [metric, byElements(settings) ? wavelength : epsilon],
+    prescribe: [metric, level, exact, persistence, exact.of === 'input' ? overrides : []],
+    tikhonov: [metric, level],
     interpolate: [energy, unconstrained, constraints],
     leastSquares: [epsilon, unconstrained, constraints],
     lowPass: [settings.lowPass],
@@ -126,18 +146,21 @@ export function smoothingKey(settings: Settings): string {
     simplify: [persistence, overrides],
   }[method];
   const missing = canFill({ method }) ? settings.missing : 'omit';
-  return JSON.stringify([field, method, by, missing, method === 'simplify' ? [] : [weights, bounds]]);
+  const operator = { simplify: [], prescribe: [weights] }[method as string] ?? [weights, bounds];
+  return JSON.stringify([field, method, by, missing, operator]);
 }
 
-/** The same for the smoothed fields of all ε. */
+/** The same for the smoothed fields of all ε. Those of exact extrema are without the choice, as Tikhonov smoothing has them. */
 export function familyKey(settings: Settings): string {
-  return smoothingKey({ ...settings, epsilon: NaN });
+  const method = isExact(settings) ? 'tikhonov' : settings.method;
+  return smoothingKey({ ...settings, method, epsilon: NaN });
 }
 
 /** What the saved field's name ends in. */
 export function suffixOf(settings: Smoothing): string {
   const { method, energy, lowPass } = settings;
   return {
+    prescribe: 'exact',
     tikhonov: byElements(settings) ? 'finite_elements' : 'tikhonov',
     interpolate: energy,
     leastSquares: 'least_squares',
