@@ -15,8 +15,9 @@ use crate::support::watch::{Phase, Watch};
 const MOST_ITERATIONS: usize = 60;
 /// So many are usual; progress is told as if there were so many.
 const USUAL_ITERATIONS: usize = 9;
-/// The duality gap that is left, relative to the energy.
+/// The duality gap that is left, relative to the energy; and the one that is good enough where rounding allows of no smaller one.
 const GAP: f64 = 1e-6;
+const LARGEST_GAP: f64 = 1e-4;
 /// What the steps may lack of the slacks, relative to the least margin, and the gradient of what balances it, relative to it.
 const PRIMAL: f64 = 0.1;
 const DUAL: f64 = 1e-6;
@@ -180,7 +181,8 @@ pub(super) fn minimize(
         if !(gap.is_finite() && lacking.is_finite()) {
             return Err(SmoothError::NotConverged { iterations: iteration, residual: gap }.into());
         }
-        if gap < GAP && lacking < PRIMAL * margin && unbalanced < DUAL {
+        let is_balanced = lacking < PRIMAL * margin && unbalanced < DUAL;
+        if gap < GAP && is_balanced {
             plan.finish()?;
             return Ok(Optimum { x: point.x, gap, unbalanced, iterations: iteration, solves });
         }
@@ -189,13 +191,18 @@ pub(super) fn minimize(
         }
         plan.begin(0)?;
         watch.tick(TICKS * m as u64)?;
-        solves += point.advance(quadratic, steps, watch).map_err(|error| match error {
+        match point.advance(quadratic, steps, watch) {
+            Ok(taken) => solves += taken,
             // The weights of steps that are all but taken are so large that others are lost beside them.
-            SolveError::NotPositiveDefinite { .. } | SolveError::NonFiniteEntry { .. } => {
-                SmoothError::NotConverged { iterations: iteration, residual: gap }.into()
+            Err(SolveError::NotPositiveDefinite { .. } | SolveError::NonFiniteEntry { .. }) => {
+                if gap < LARGEST_GAP && is_balanced {
+                    plan.finish()?;
+                    return Ok(Optimum { x: point.x, gap, unbalanced, iterations: iteration, solves });
+                }
+                return Err(SmoothError::NotConverged { iterations: iteration, residual: gap }.into());
             }
-            other => crate::error::Error::from(other),
-        })?;
+            Err(other) => return Err(other.into()),
+        }
     }
     Err(SmoothError::NotConverged { iterations: MOST_ITERATIONS, residual: f64::INFINITY }.into())
 }
