@@ -8,7 +8,7 @@ import { acceptDrops, isFieldName } from './drop';
 import { DEFAULT_VIEW, EXAMPLES, fetchExample } from './examples';
 import type { Example } from './examples';
 import { Panel } from './panel';
-import type { ExactReport, MeshSummary, Part, Request, Settings } from './protocol';
+import type { MeshSummary, Part, Request, Settings } from './protocol';
 import { NO_OVERRIDES } from './reading/pairs';
 import { Paths } from './reading/paths';
 import { Reading } from './reading/reading';
@@ -18,7 +18,7 @@ import { Choosing } from './smoothing/choosing';
 import { Constraining } from './smoothing/constraining';
 import { MovingEpsilon } from './smoothing/epsilon';
 import { ReportPanel } from './smoothing/report';
-import { BY_SMOOTHED, EXACT_PREVIEW, extremaOf, foundOf } from './smoothing/extrema';
+import { ChosenExtrema, EXACT_PREVIEW } from './smoothing/extrema';
 import { INITIAL_SMOOTHING, isExact, smoothingKey } from './smoothing/settings';
 import { describe, Status } from './status';
 import { makeTabs } from './tabs';
@@ -63,8 +63,6 @@ let source: Source | null = null;
 let offered: Source | null = null;
 let shown: { summary: MeshSummary; size: SolidSize } | null = null;
 let accepted: Settings = INITIAL;
-/** The extrema that the field after has, where they were chosen. */
-let exact: ExactReport | null = null;
 let lit: Lit | null = null;
 let wantsPaths = false;
 let paths: Paths | null = null;
@@ -106,7 +104,7 @@ const reading = new Reading({
   overrides: change,
   toggle: (ends) => constraining.toggle(ends),
   lit: light,
-  kept: markExtrema,
+  kept: () => markExtrema(),
 });
 const constraining = new Constraining({
   picked: update,
@@ -120,6 +118,7 @@ const constraining = new Constraining({
   },
   extremum: (vertex) => reading.toggleAt(vertex),
 });
+const extrema = new ChosenExtrema(reading, constraining);
 const moving = new MovingEpsilon({
   preview: (whole) => client.run({ kind: 'preview', settings: readSettings(), whole }),
   rest: update,
@@ -235,7 +234,7 @@ function show(part: Part): void {
       return colors.setDifference(part);
     case 'report':
       controls.setSaveable(true);
-      exact = part.report.exact;
+      extrema.report = part.report.exact;
       markExtrema();
       report.show(part.report);
       return showReport(part.report);
@@ -294,7 +293,7 @@ function clearAfter(text: string): void {
   panels.after.clear(text);
   reading.setHierarchy('after', null);
   reading.setResult(null);
-  exact = null;
+  extrema.report = null;
   colors.clearDifference();
   moving.canPreview = false;
   choosing.clear(text);
@@ -414,13 +413,8 @@ function canPreviewExtrema(): boolean {
   return isExact(controls.read()) && shown !== null && !client.lost;
 }
 
-/** The chosen extrema have rings, as constraints have. */
 function markExtrema(): void {
-  const settings = controls.read();
-  const isOn = isExact(settings);
-  const isByField = settings.exact.of === 'smoothed';
-  reading.setElsewhere(isOn && isByField ? BY_SMOOTHED : '');
-  constraining.setExtrema(isOn ? foundOf(isByField ? extremaOf(exact) : reading.kept) : null, isByField);
+  extrema.mark(controls.read());
 }
 
 /** Null where what is shown is no preview. */

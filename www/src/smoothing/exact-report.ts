@@ -37,7 +37,7 @@ export function exactGroup(exact: ExactReport): Group {
       {
         name: 'Certificate',
         value:
-          `every step rises by at least ${short(leastSlack)} of the margin, ${short(margin)} of the range; ` +
+          `every step rises by at least ${short(leastSlack)} times the margin of ${short(margin)} of the range; ` +
           `${leastSlack >= 0.9 ? '0.9 or more proves' : 'less than 0.9 does not prove'} that there are no other extrema`,
         meaning:
           'From every vertex that is no chosen extremum there is a step down and a step up to a neighbour, each with at least this rise',
