@@ -35,7 +35,7 @@ const TABLE = {
     ...besideTheMain('files'),
     title: 'the WebAssembly module of the files',
     without: ['operators', 'render', 'smooth', 'solve'],
-    limit: 70_400,
+    limit: 71_000,
   },
   snapshot: {
     ...besideTheMain('snapshot'),

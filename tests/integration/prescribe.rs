@@ -48,7 +48,7 @@ pub(crate) fn check(mesh: &TriMesh, smoothed: &Smoothed) {
     if kinds.iter().all(|kind| *kind == LinkKind::Cycle) {
         let euler = mesh.vertex_count() as i64 - mesh.connectivity().edges().len() as i64
             + mesh.connectivity().triangles().len() as i64;
-        assert_eq!(after.saddles as i64, (minima.len() + maxima.len()) as i64 - euler, "saddles");
+        assert_eq!(i64::from(after.saddles), (minima.len() + maxima.len()) as i64 - euler, "saddles");
     }
     if report.route == PrescribeRoute::InteriorPoint {
         assert!(report.least_slack >= 0.9, "slack {}", report.least_slack);
