@@ -335,7 +335,7 @@ impl Smoother {
     /// let mut noise = Random::new(1);
     /// let field: Vec<f64> = mesh.positions().chunks_exact(3).map(|p| p[2] + 0.1 * noise.signed()).collect();
     /// let mut smoother = Smoother::new(&mesh, SmootherOptions::default())?;
-    /// let extrema = Extrema::Most { minima: 1, maxima: 2, of: PersistenceOf::Smoothed };
+    /// let extrema = Extrema::Most { minima: 1, maxima: 2, of: PersistenceOf::Input };
     /// let options = PrescribeOptions { extrema, ..PrescribeOptions::default() };
     /// let report = smoother.prescribe(&field, &options)?.reports.remove(0);
     /// assert_eq!((report.after.minima, report.after.maxima, report.after.saddles), (1, 2, 1));

@@ -32,7 +32,7 @@ fn methods(channels: usize, missing: Missing) -> Vec<Method<'static>> {
         let functional = Functional::Tikhonov(TikhonovOptions { missing, ..Default::default() });
         let prescribed = PrescribeOptions { functional, complete: true, prominence: Some(0.01), ..Default::default() };
         all.push(Method::Prescribe(prescribed));
-        all.push(Method::Prescribe(PrescribeOptions { preview: true, ..prescribed }));
+        all.push(Method::Prescribe(PrescribeOptions { preview: true, prominence: None, ..prescribed }));
     }
     all
 }
