@@ -33,7 +33,8 @@ pub struct PrescribedReport {
     pub least_slack: f64,
     /// The margin between neighbours of prescribed steps, relative to the range of the input.
     pub margin: f64,
-    /// The energy lies above that of the best field with these steps by no more than this share of itself; NaN for a preview.
+    /// The energy lies above that of the best field with these steps by no more than this share of itself; for a preview, above
+    /// that of any field.
     pub gap: f64,
     /// Steps of the interior-point method, each with one factorisation.
     pub iterations: usize,

@@ -128,7 +128,7 @@ export interface Prescribed extends Smoothed {
   leastSlack: number;
   /** The margin that was used: the one asked for, or what double precision can tell at values far from 0. 0 for a preview. */
   margin: number;
-  /** No field that rises along the same steps has less energy by more than this share of it. `NaN` for a preview. */
+  /** No field that rises along the same steps has less energy by more than this share of it. For a preview: no field at all. */
   gap: number;
   /** Iterations of the interior-point method, with one factorisation each. */
   iterations: number;

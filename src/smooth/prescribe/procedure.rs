@@ -160,7 +160,7 @@ impl Prescribing<'_, '_> {
             unconstrained_energy,
             least_slack: 1.0,
             margin: 0.0,
-            gap: f64::NAN,
+            gap: if energy > 0.0 { (1.0 - unconstrained_energy / energy).max(0.0) } else { 0.0 },
             iterations: 0,
             solves: 0,
             route: PrescribeRoute::Preview,
