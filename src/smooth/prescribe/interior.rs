@@ -255,7 +255,7 @@ impl Point {
         let mu = self.product() / m as f64;
         let products: Vec<f64> = self.slacks.iter().zip(&self.multipliers).map(|(s, z)| s * z).collect();
         // Mehrotra's predictor goes for products of zero, and tells how far they can come down.
-        let predicted = self.direction(quadratic, steps, &weights, &products, watch)?;
+        let predicted = self.direction(quadratic, steps, &weights, &products, true, watch)?;
         let reach = self.longest(&predicted);
         let after = self.product_after(&predicted, reach) / m as f64;
         let quotient = after / mu;
@@ -266,14 +266,14 @@ impl Point {
             .map(|(p, (ds, dz))| p + ds * dz - target)
             .collect();
         drop(predicted);
-        let mut direction = self.direction(quadratic, steps, &weights, &corrected, watch)?;
+        let mut direction = self.direction(quadratic, steps, &weights, &corrected, true, watch)?;
         let mut solves = 2;
         let mut length = self.longest(&direction);
         // Gondzio's correctors bring products back that stray from the others, as long as that lets the step grow.
         for _ in 0..CORRECTORS {
             let aim = (length + AIM).min(1.0);
             let strays = self.strays(&direction, aim, target);
-            let correction = self.direction_of(quadratic, steps, &weights, &strays, watch)?;
+            let correction = self.direction(quadratic, steps, &weights, &strays, false, watch)?;
             solves += 1;
             let longer = direction.plus(&correction);
             let reached = self.longest(&longer);
@@ -289,44 +289,27 @@ impl Point {
         Ok(solves)
     }
 
-    /// The direction that mends all residuals and changes the products of slacks and multipliers by −`excess`.
+    /// The direction that changes the products of slacks and multipliers by −`excess`, and, if it `mends`, takes all residuals away.
     fn direction(
         &self,
         quadratic: &Quadratic<'_>,
         steps: &Steps,
         weights: &[f64],
         excess: &[f64],
+        mends: bool,
         watch: &Watch<'_>,
     ) -> Result<Direction, SolveError> {
         // Hdx − Dᵀdz = r, D dx − ds = −p, z ds + s dz = −e, without ds and dz.
+        let lacking = |k: usize| if mends { self.primal[k] } else { 0.0 };
         let pulls: Vec<f64> =
-            (0..self.slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * self.primal[k]).collect();
-        let mut right = self.dual.clone();
+            (0..self.slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * lacking(k)).collect();
+        let mut right = if mends { self.dual.clone() } else { vec![0.0; self.x.len()] };
         steps.add_transposed(&pulls, &mut right);
         quadratic.clear_fixed(&mut right);
         let x = quadratic.solve(&right, watch)?;
         let mut slacks = steps.rises(&x);
-        add(&mut slacks, 1.0, &self.primal);
+        slacks.iter_mut().enumerate().for_each(|(k, slack)| *slack += lacking(k));
         let multipliers = (0..slacks.len()).map(|k| -excess[k] / self.slacks[k] - weights[k] * slacks[k]).collect();
-        Ok(Direction { x, slacks, multipliers })
-    }
-
-    /// The direction that changes the products by −`excess` and nothing else.
-    fn direction_of(
-        &self,
-        quadratic: &Quadratic<'_>,
-        steps: &Steps,
-        weights: &[f64],
-        excess: &[f64],
-        watch: &Watch<'_>,
-    ) -> Result<Direction, SolveError> {
-        let pulls: Vec<f64> = excess.iter().zip(&self.slacks).map(|(e, s)| -e / s).collect();
-        let mut right = vec![0.0; self.x.len()];
-        steps.add_transposed(&pulls, &mut right);
-        quadratic.clear_fixed(&mut right);
-        let x = quadratic.solve(&right, watch)?;
-        let slacks = steps.rises(&x);
-        let multipliers = (0..slacks.len()).map(|k| pulls[k] - weights[k] * slacks[k]).collect();
         Ok(Direction { x, slacks, multipliers })
     }
 
