@@ -88,6 +88,6 @@ export async function run({ name, size, stops, repeats }) {
   for (const gap of gaps) for (let k = 0; k < gap; k += 0.5) waits.push(gap - k);
   waits.sort((a, b) => a - b);
   unwinding.sort((a, b) => a - b);
-  const [median, worst] = [pick(waits, 0.5) + pick(unwinding, 0.5), Math.max(...gaps) + unwinding.at(-1)];
+  const [median, worst] = [pick(waits, 0.5) + (pick(unwinding, 0.5) ?? 0), Math.max(...gaps) + (unwinding.at(-1) ?? 0)];
   return { total, questions, median, worst, lost, stopped: unwinding.length };
 }

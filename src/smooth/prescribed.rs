@@ -7,11 +7,13 @@ use crate::support::named::named;
 pub enum PrescribeRoute {
     /// By an interior-point method, to the optimum.
     InteriorPoint,
+    /// By multipliers of the few steps that the smoothed field lacks, to the optimum, with the factor of the functional alone.
+    Dual,
     /// The smoothed field, flooded until it has no other extrema: exact, and not the smoothest.
     Preview,
 }
 
-named! { PrescribeRoute { InteriorPoint = "interiorPoint", Preview = "preview" } }
+named! { PrescribeRoute { InteriorPoint = "interiorPoint", Dual = "dual", Preview = "preview" } }
 
 /// The extrema of a field that were prescribed, and how near to the smoothest such field it is.
 ///
@@ -36,7 +38,7 @@ pub struct PrescribedReport {
     /// The energy lies above that of the best field with these steps by no more than this share of itself; for a preview, above
     /// that of any field.
     pub gap: f64,
-    /// Steps of the interior-point method, each with one factorisation.
+    /// Steps of the interior-point method, each with one factorisation; or rounds of the dual method, with none.
     pub iterations: usize,
     /// Solves with those factors.
     pub solves: usize,

@@ -8,7 +8,7 @@ use morse_smooth::Watch;
 use morse_smooth::mesh::{TriMesh, shapes};
 use morse_smooth::operators::{LaplacianWeights, MassOptions, laplacian, mass};
 use morse_smooth::smooth::{
-    Extrema, Functional, PersistenceOf, PrescribeOptions, Smoother, SmootherOptions, TikhonovOptions,
+    Extrema, Functional, PersistenceOf, PrescribeOptions, PrescribeRoute, Smoother, SmootherOptions, TikhonovOptions,
 };
 use nalgebra_sparse::CscMatrix;
 
@@ -61,20 +61,26 @@ fn by_clarabel(h: &CscMatrix<f64>, c: &[f64], edges: &[(usize, usize, f64)]) -> 
 /// Of all fields that rise along all edges as the result does, none has less energy: these are fewer than those it was chosen from.
 #[test]
 fn optima_are_those_of_clarabel() {
-    for (mesh, epsilon, minima, maxima) in [
-        (shapes::sphere(3).expect("a sphere"), 0.05, 3, 2),
-        (shapes::sphere(4).expect("a sphere"), 0.02, 9, 12),
-        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 1, 2),
+    use PersistenceOf::{Input, Smoothed};
+    use PrescribeRoute::{Dual, InteriorPoint};
+    for (mesh, epsilon, minima, maxima, of, route) in [
+        (shapes::sphere(3).expect("a sphere"), 0.05, 3, 2, Input, InteriorPoint),
+        (shapes::sphere(4).expect("a sphere"), 0.02, 9, 12, Input, InteriorPoint),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 1, 2, Input, InteriorPoint),
+        (shapes::sphere(4).expect("a sphere"), 0.002, 2, 2, Smoothed, Dual),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.02, 1, 2, Smoothed, Dual),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 3, 3, Smoothed, Dual),
     ] {
         let random = noise(mesh.vertex_count(), 6);
         let field: Vec<f64> =
             mesh.positions().chunks_exact(3).zip(random).map(|(p, e)| p[0] * p[2] + 0.2 * e).collect();
         let functional_of = Functional::Tikhonov(TikhonovOptions { epsilon, ..TikhonovOptions::default() });
-        let extrema = Extrema::Most { minima, maxima, of: PersistenceOf::Input };
+        let extrema = Extrema::Most { minima, maxima, of };
         let options = PrescribeOptions { functional: functional_of, extrema, ..PrescribeOptions::default() };
         let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).expect("a smoother");
         let smoothed = smoother.prescribe(&field, &options).expect("a field");
         check(&mesh, &smoothed);
+        assert_eq!(told(&smoothed).route, route, "ε = {epsilon}, {minima} + {maxima}: {:?}", told(&smoothed));
         let [low, high] = [f64::min, f64::max].map(|of| field.iter().copied().fold(field[0], of));
         let normalized = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| (v - low) / (high - low)).collect() };
         let (f, x) = (normalized(&field), normalized(&smoothed.values));

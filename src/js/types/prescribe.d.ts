@@ -130,11 +130,14 @@ export interface Prescribed extends Smoothed {
   margin: number;
   /** No field that rises along the same steps has less energy by more than this share of it. For a preview: no field at all. */
   gap: number;
-  /** Iterations of the interior-point method, with one factorisation each. */
+  /** Iterations of the interior-point method, with one factorisation each, or rounds of the dual method, with none. */
   iterations: number;
-  /** Solves with those factors. */
+  /** Solves with factors. */
   solves: number;
-  /** How the field was found. */
+  /**
+   * How the field was found: by an interior-point method; by multipliers of the few steps that the smoothed field lacks (`dual`), which
+   * is quicker; or as the smoothed field, flooded (`preview`).
+   */
   route: 'interiorPoint' | 'dual' | 'preview';
 }
 

@@ -4,9 +4,10 @@
 //! A step joins two vertices of one edge, so that H + DᵀWD has the pattern of H for all weights W = z/s: one analysis serves all
 //! iterations, and every weight goes to the same four places.
 
+use super::incidence::{Optimum, Steps};
 use super::quadratic::Quadratic;
-use super::steps::{GROUND, Step};
 use crate::error::{Result, SmoothError, SolveError};
+use crate::smooth::prescribed::PrescribeRoute;
 use crate::solve::norm;
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
@@ -34,102 +35,6 @@ const SMALLEST_PRODUCT: f64 = 0.1;
 const LARGEST_PRODUCT: f64 = 10.0;
 /// The work with one step of a field in one iteration.
 const TICKS: u64 = 150;
-
-/// The optimum.
-pub(super) struct Optimum {
-    pub(super) x: Vec<f64>,
-    /// The energy is above that of the best field by no more than this share of itself.
-    pub(super) gap: f64,
-    /// ‖Hx − c − Dᵀz‖ relative to what balances it.
-    pub(super) unbalanced: f64,
-    pub(super) iterations: usize,
-    pub(super) solves: usize,
-}
-
-/// The prescribed steps between variables: places among them.
-pub(super) struct Steps {
-    steps: Vec<Step>,
-    /// Where the weight of each step goes in the matrix: to the diagonal of both ends, and off it; where an end has no variable to
-    /// nowhere.
-    diagonal: Vec<[u32; 2]>,
-    beside: Vec<[u32; 2]>,
-}
-
-const NOWHERE: u32 = u32::MAX;
-
-impl Steps {
-    /// # Errors
-    /// `OutOfMemory`.
-    pub(super) fn new(steps: Vec<Step>, quadratic: &Quadratic<'_>) -> Result<Self> {
-        memory::ensure(16 * steps.len() as u64)?;
-        let is_free = |place: u32| place != GROUND && !quadratic.is_fixed[place as usize];
-        let steps: Vec<Step> = steps.into_iter().filter(|step| is_free(step.from) || is_free(step.to)).collect();
-        let mut diagonal = Vec::with_capacity(steps.len());
-        let mut beside = Vec::with_capacity(steps.len());
-        let at = |row: u32, column: u32| -> Result<u32, SolveError> {
-            if is_free(row) && is_free(column) {
-                Ok(quadratic.place(row as usize, column as usize)? as u32)
-            } else {
-                Ok(NOWHERE)
-            }
-        };
-        for &Step { from, to, .. } in &steps {
-            diagonal.push([at(from, from)?, at(to, to)?]);
-            beside.push([at(from, to)?, at(to, from)?]);
-        }
-        Ok(Self { steps, diagonal, beside })
-    }
-
-    fn len(&self) -> usize {
-        self.steps.len()
-    }
-
-    /// Dx.
-    fn rises(&self, x: &[f64]) -> Vec<f64> {
-        let value = |place: u32| if place == GROUND { 0.0 } else { x[place as usize] };
-        self.steps.iter().map(|step| value(step.to) - value(step.from)).collect()
-    }
-
-    /// y + Dᵀz.
-    fn add_transposed(&self, z: &[f64], y: &mut [f64]) {
-        for (step, &z) in self.steps.iter().zip(z) {
-            if step.to != GROUND {
-                y[step.to as usize] += z;
-            }
-            if step.from != GROUND {
-                y[step.from as usize] -= z;
-            }
-        }
-    }
-
-    /// Adds DᵀWD to the values of the matrix.
-    fn add_weights(&self, weights: &[f64], values: &mut [f64]) {
-        for ((&weight, diagonal), beside) in weights.iter().zip(&self.diagonal).zip(&self.beside) {
-            for &place in diagonal.iter().filter(|&&place| place != NOWHERE) {
-                values[place as usize] += weight;
-            }
-            for &place in beside.iter().filter(|&&place| place != NOWHERE) {
-                values[place as usize] -= weight;
-            }
-        }
-    }
-
-    /// The steps between vertices.
-    fn between(&self) -> impl Iterator<Item = (usize, &Step)> {
-        self.steps.iter().enumerate().filter(|(_, step)| step.from != GROUND && step.to != GROUND)
-    }
-
-    /// The least rise that is asked for.
-    fn margin(&self) -> f64 {
-        self.between().map(|(_, step)| step.least).fold(f64::INFINITY, f64::min).min(1.0)
-    }
-
-    /// The least rise over what is asked for.
-    pub(super) fn least_slack(&self, x: &[f64]) -> f64 {
-        let rises = self.rises(x);
-        self.between().map(|(k, step)| rises[k] / step.least).fold(f64::INFINITY, f64::min)
-    }
-}
 
 /// A direction in all variables.
 struct Direction {
@@ -162,9 +67,6 @@ pub(super) fn minimize(
     watch: &Watch<'_>,
 ) -> Result<Optimum> {
     let (n, m) = (start.len(), steps.len());
-    if m == 0 {
-        return Ok(Optimum { x: start.to_vec(), gap: 0.0, unbalanced: 0.0, iterations: 0, solves: 0 });
-    }
     memory::ensure((8 * (8 * n + 14 * m)) as u64)?;
     let margin = steps.margin();
     let mut point = Point::new(quadratic, steps, start, energy, margin);
@@ -184,7 +86,7 @@ pub(super) fn minimize(
         let is_balanced = lacking < PRIMAL * margin && unbalanced < DUAL;
         if gap < GAP && is_balanced {
             plan.finish()?;
-            return Ok(Optimum { x: point.x, gap, unbalanced, iterations: iteration, solves });
+            return Ok(point.optimum(gap, unbalanced, iteration, solves));
         }
         if iteration == MOST_ITERATIONS {
             return Err(SmoothError::NotConverged { iterations: iteration, residual: gap }.into());
@@ -197,7 +99,7 @@ pub(super) fn minimize(
             Err(SolveError::NotPositiveDefinite { .. } | SolveError::NonFiniteEntry { .. }) => {
                 if gap < LARGEST_GAP && is_balanced {
                     plan.finish()?;
-                    return Ok(Optimum { x: point.x, gap, unbalanced, iterations: iteration, solves });
+                    return Ok(point.optimum(gap, unbalanced, iteration, solves));
                 }
                 return Err(SmoothError::NotConverged { iterations: iteration, residual: gap }.into());
             }
@@ -218,6 +120,10 @@ impl Point {
         let product = START * reference / slacks.len() as f64;
         let multipliers = slacks.iter().map(|s| product / s).collect();
         Self { x: start.to_vec(), slacks, multipliers, dual: Vec::new(), primal: Vec::new() }
+    }
+
+    fn optimum(self, gap: f64, unbalanced: f64, iterations: usize, solves: usize) -> Optimum {
+        Optimum { x: self.x, route: PrescribeRoute::InteriorPoint, gap, unbalanced, iterations, solves }
     }
 
     /// sᵀz.

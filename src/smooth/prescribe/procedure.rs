@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use super::dual;
 use super::extrema::{Chosen, chosen};
-use super::interior::{Optimum, Steps, minimize};
+use super::incidence::{Optimum, Steps};
+use super::interior;
 use super::options::{ExtremumValues, PrescribeOptions, ResultRange};
 use super::prominence;
 use super::quadratic::Quadratic;
@@ -28,6 +30,7 @@ use crate::support::watch::{Phase, Watch};
 
 /// The shares of smoothing, of finding steps, and of the interior-point method.
 const STEPS: [(Phase, f64); 3] = [(Phase::Solve, 13.0), (Phase::Field, 3.0), (Phase::Factorization, 80.0)];
+const MINIMIZING: [(Phase, f64); 2] = [(Phase::Solve, 1.0), (Phase::Factorization, 8.0)];
 const PREVIEW: [(Phase, f64); 2] = [(Phase::Solve, 13.0), (Phase::Field, 3.0)];
 
 /// Of other smoothed fields whose order is tried, ε times the one that is asked for.
@@ -255,7 +258,11 @@ impl Prescribing<'_, '_> {
             kept,
         };
         let best = search.best(representatives, self.options, watch)?;
-        search.told(best, watch)
+        let told = search.told(best, watch)?;
+        if let Some(factor) = search.quadratic.into_system_factor() {
+            self.system.keep_factor(epsilon, factor);
+        }
+        Ok(told)
     }
 }
 
@@ -330,10 +337,25 @@ impl Search<'_, '_> {
         }
         self.to_variables(&mut steps);
         let steps = Steps::new(steps, &self.quadratic)?;
-        let optimum = minimize(&mut self.quadratic, &steps, &self.start, self.unconstrained_energy, watch)?;
+        let optimum = self.minimize(&steps, watch)?;
         let energy = self.quadratic.energy(&optimum.x);
         let least_slack = steps.least_slack(&optimum.x);
         Ok(Candidate { optimum, energy, least_slack, representative })
+    }
+
+    /// By the factor of the functional alone where few steps bind, and with as many factors as it takes where many do.
+    fn minimize(&mut self, steps: &Steps, watch: &Watch<'_>) -> Result<Optimum> {
+        let mut plan = watch.plan(&MINIMIZING);
+        plan.begin(0)?;
+        let optimum = match dual::minimize(&mut self.quadratic, steps, &self.start, watch)? {
+            Some(optimum) => optimum,
+            None => {
+                plan.begin(0)?;
+                interior::minimize(&mut self.quadratic, steps, &self.start, self.unconstrained_energy, watch)?
+            }
+        };
+        plan.finish()?;
+        Ok(optimum)
     }
 
     /// Names variables where vertices are named.
@@ -354,7 +376,7 @@ impl Search<'_, '_> {
     }
 
     /// The result with what is told of it, after its extrema have been looked at once more.
-    fn told(self, best: Candidate, watch: &Watch<'_>) -> Result<(Solution, PrescribedReport)> {
+    fn told(&self, best: Candidate, watch: &Watch<'_>) -> Result<(Solution, PrescribedReport)> {
         let Candidate { optimum, energy, least_slack, representative } = best;
         let Representative { extrema, unavoidable, .. } = representative;
         let values = self.values(&optimum.x);
@@ -377,7 +399,7 @@ impl Search<'_, '_> {
             gap: optimum.gap,
             iterations: optimum.iterations,
             solves: optimum.solves,
-            route: PrescribeRoute::InteriorPoint,
+            route: optimum.route,
         };
         let solver = SolverReport {
             route: Route::Cholesky,

@@ -28,6 +28,10 @@ pub(super) struct Quadratic<'a> {
     /// H on the pattern, with unit rows and columns for variables that are fixed.
     values: Vec<f64>,
     factor: Option<CholeskyFactor<f64>>,
+    /// Whether the factor is that of H, with nothing added.
+    is_alone: bool,
+    /// Whether its pattern has more than that of the system.
+    is_extended: bool,
     pub(super) is_fixed: Vec<bool>,
     /// c.
     pub(super) load: Vec<f64>,
@@ -64,13 +68,16 @@ impl<'a> Quadratic<'a> {
             }
             reached
         });
-        let Square { mut analysis, mut values, mut factor } = square;
+        let Square { mut analysis, mut values, mut factor, is_current } = square;
+        let mut is_extended = false;
         if let Some((pattern, all)) = extended(connectivity, &vertices, reached.as_deref(), &analysis, &values)? {
             factor = None;
+            is_extended = true;
             values = all;
             analysis = CholeskyAnalysis::new(pattern, watch)?;
         }
         let side = RightHandSide { field: matrices.restrict(&channel.normalized), offset: Vec::new() };
+        let is_alone = is_current && factor.is_some();
         let is_fixed = vec![false; vertices.len()];
         let mut quadratic = Self {
             matrices,
@@ -82,6 +89,8 @@ impl<'a> Quadratic<'a> {
             analysis,
             values,
             factor,
+            is_alone,
+            is_extended,
             is_fixed,
             load: Vec::new(),
         };
@@ -90,6 +99,7 @@ impl<'a> Quadratic<'a> {
             let place = quadratic.others[k].0 as usize;
             let diagonal = quadratic.place(place, place)?;
             quadratic.values[diagonal] += weight;
+            quadratic.is_alone = false;
         }
         quadratic.load = quadratic.minus_gradient(&vec![0.0; quadratic.vertices.len()]);
         Ok(quadratic)
@@ -171,6 +181,7 @@ impl<'a> Quadratic<'a> {
             }
         }
         self.is_fixed = is_fixed;
+        self.is_alone = false;
     }
 
     /// Factors H with what is added at some places.
@@ -181,6 +192,7 @@ impl<'a> Quadratic<'a> {
         memory::ensure(size_of_val(&*self.values) as u64)?;
         let mut values = self.values.clone();
         added(&mut values);
+        self.is_alone = false;
         match &mut self.factor {
             Some(factor) => factor.refactor(&values, watch),
             none => {
@@ -188,6 +200,24 @@ impl<'a> Quadratic<'a> {
                 Ok(())
             }
         }
+    }
+
+    /// Factors H alone, unless that is the last factor.
+    ///
+    /// # Errors
+    /// Those of factoring.
+    pub(super) fn factor_alone(&mut self, watch: &Watch<'_>) -> Result<(), SolveError> {
+        if !self.is_alone {
+            self.factor(&|_| {}, watch)?;
+            self.is_alone = true;
+        }
+        Ok(())
+    }
+
+    /// The factor, if it is that of the system and of nothing else.
+    pub(super) fn into_system_factor(self) -> Option<CholeskyFactor<f64>> {
+        let is_system = self.is_alone && !self.is_extended && !self.is_fixed.contains(&true);
+        self.factor.filter(|_| is_system)
     }
 
     /// Solves with the last factor.

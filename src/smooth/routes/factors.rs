@@ -95,8 +95,13 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
             Precision::Single => UsedPrecision::Single,
             Precision::Double => UsedPrecision::Double,
         };
-        self.last = Some((key.clone(), factor));
+        self.keep(key, factor);
         Answer { iterates, route, precision, factor_nonzeros: self.analysis.size().nonzeros, smallest_eigenvalue }
+    }
+
+    /// Keeps a factor for the next call.
+    pub(super) fn keep(&mut self, key: &FactorKey, factor: Factor<D, S>) {
+        self.last = Some((key.clone(), factor));
     }
 
     pub(super) fn analysis(&self) -> &CholeskyAnalysis {

@@ -21,6 +21,7 @@ use super::names::{Route, UsedPrecision};
 use super::schedule::{Stages, Work};
 use super::{Precision, SolverChoice};
 use crate::error::SolveError;
+use crate::solve::CholeskyFactor;
 use crate::support::watch::{Phase, Watch};
 use complex::ComplexFactors;
 pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, Symmetry, difference};
@@ -155,6 +156,13 @@ impl Routes {
         match &mut self.real {
             Some(real) => real.square(task),
             none => none.insert(RealRoute::new(task, watch)?).square(task),
+        }
+    }
+
+    /// Takes back the factor that [`Routes::square`] gave away, or one that was computed in its place.
+    pub(super) fn keep(&mut self, key: &FactorKey, factor: CholeskyFactor<f64>) {
+        if let Some(real) = &mut self.real {
+            real.keep(key, factor);
         }
     }
 

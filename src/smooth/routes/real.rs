@@ -3,7 +3,7 @@
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::eigenvalue::smallest_eigenvalue;
-use super::factors::Factors;
+use super::factors::{Factor, Factors};
 use super::problem::Form;
 use super::problem::Problem;
 use super::refine::{Refinement, refine};
@@ -34,6 +34,8 @@ pub(in crate::smooth) struct Square {
     /// On the pattern that was analysed.
     pub(in crate::smooth) values: Vec<f64>,
     pub(in crate::smooth) factor: Option<CholeskyFactor<f64>>,
+    /// Whether that is the factor of this matrix.
+    pub(in crate::smooth) is_current: bool,
 }
 
 impl RealRoute {
@@ -63,7 +65,13 @@ impl RealRoute {
         let analysis = self.factors.analysis().clone();
         memory::ensure(size_of_val(&*self.values) as u64)?;
         let values = values(&self.values, analysis.pattern(), &task.problem);
-        Ok(Square { analysis, values, factor: self.factors.take_double() })
+        let is_current = self.factors.has(task.key);
+        Ok(Square { analysis, values, factor: self.factors.take_double(), is_current })
+    }
+
+    /// Takes the factor of a system back.
+    pub(super) fn keep(&mut self, key: &FactorKey, factor: CholeskyFactor<f64>) {
+        self.factors.keep(key, Factor::Double(factor));
     }
 
     /// Whether the last factor has this key.

@@ -15,7 +15,7 @@ use crate::smooth::routes::{
 };
 use crate::smooth::schedule::{Stages, Work};
 use crate::smooth::{Operator, Precision, SolverChoice};
-use crate::solve::submatrix;
+use crate::solve::{CholeskyFactor, submatrix};
 use crate::support::memory;
 use crate::support::watch::Watch;
 
@@ -134,6 +134,11 @@ impl RegularizedSystem {
         let problem = matrices.problem(epsilon);
         let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &[], settings };
         routes.square(&task, watch).map_err(|error| on_mesh(&matrices.unknowns, error))
+    }
+
+    /// Takes back the factor of that matrix, for the next call.
+    pub(in crate::smooth) fn keep_factor(&mut self, epsilon: f64, factor: CholeskyFactor<f64>) {
+        self.routes.keep(&self.matrices.key(epsilon), factor);
     }
 
     /// Solves for every channel of normalised values.
