@@ -144,7 +144,7 @@ fn dense(mesh: &TriMesh, weights: LaplacianWeights, epsilon: f64, f: &[f64]) -> 
 fn by_barrier(h: &DMatrix<f64>, c: &DVector<f64>, edges: &[(usize, usize, f64)], start: DVector<f64>) -> DVector<f64> {
     let mut x = start;
     let mut mu = 1.0;
-    while mu * edges.len() as f64 > 1e-13 {
+    while mu * edges.len() as f64 > 1e-11 {
         for _ in 0..80 {
             let mut hessian = h.clone();
             let mut gradient = h * &x - c;

@@ -62,14 +62,15 @@ fn by_clarabel(h: &CscMatrix<f64>, c: &[f64], edges: &[(usize, usize, f64)]) -> 
 #[test]
 fn optima_are_those_of_clarabel() {
     use PersistenceOf::{Input, Smoothed};
-    use PrescribeRoute::{Dual, InteriorPoint};
-    for (mesh, epsilon, minima, maxima, of, route) in [
-        (shapes::sphere(3).expect("a sphere"), 0.05, 3, 2, Input, InteriorPoint),
-        (shapes::sphere(4).expect("a sphere"), 0.02, 9, 12, Input, InteriorPoint),
-        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 1, 2, Input, InteriorPoint),
-        (shapes::sphere(4).expect("a sphere"), 0.002, 2, 2, Smoothed, Dual),
-        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.02, 1, 2, Smoothed, Dual),
-        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 3, 3, Smoothed, Dual),
+    let mut routes = Vec::new();
+    for (mesh, epsilon, minima, maxima, of) in [
+        (shapes::sphere(3).expect("a sphere"), 0.05, 3, 2, Input),
+        (shapes::sphere(4).expect("a sphere"), 0.02, 9, 12, Input),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 1, 2, Input),
+        (shapes::sphere(4).expect("a sphere"), 2.0, 9, 12, Input),
+        (shapes::sphere(4).expect("a sphere"), 0.002, 2, 2, Smoothed),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.02, 1, 2, Smoothed),
+        (shapes::torus(60, 40, 0.2).expect("a torus"), 0.3, 3, 3, Smoothed),
     ] {
         let random = noise(mesh.vertex_count(), 6);
         let field: Vec<f64> =
@@ -80,7 +81,7 @@ fn optima_are_those_of_clarabel() {
         let mut smoother = Smoother::new(&mesh, SmootherOptions::default()).expect("a smoother");
         let smoothed = smoother.prescribe(&field, &options).expect("a field");
         check(&mesh, &smoothed);
-        assert_eq!(told(&smoothed).route, route, "ε = {epsilon}, {minima} + {maxima}: {:?}", told(&smoothed));
+        routes.push(told(&smoothed).route);
         let [low, high] = [f64::min, f64::max].map(|of| field.iter().copied().fold(field[0], of));
         let normalized = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| (v - low) / (high - low)).collect() };
         let (f, x) = (normalized(&field), normalized(&smoothed.values));
@@ -104,5 +105,8 @@ fn optima_are_those_of_clarabel() {
         let (ours, theirs) = (energy(&x), energy(&best));
         assert!((ours - theirs).abs() <= 1e-5 * theirs, "{ours} against {theirs}");
         assert!((ours - told(&smoothed).energy).abs() <= 1e-8 * ours);
+    }
+    for route in [PrescribeRoute::Dual, PrescribeRoute::InteriorPoint] {
+        assert!(routes.iter().filter(|taken| **taken == route).count() >= 2, "{route:?} is tested: {routes:?}");
     }
 }

@@ -22,13 +22,13 @@ use crate::support::watch::Watch;
 /// contribute nothing (\[Bobenko07, definition 16\]). Edges on the boundary, and those where more than two triangles meet,
 /// stay as they are.
 ///
-/// Where two sides of a triangle exceed the third by less than 1e-5 of the mean length of the edges, the least number that
-/// makes up for it is added to the length of every edge (\[Sharp20\]), so that triangles of zero area take part
-/// as all others do. Where all vertices coincide, all triangles are equilateral.
+/// Lengths are those of the mesh, to the last bit, and areas those of its triangles, however thin: nothing is added to lengths so
+/// that triangles keep away from degeneracy, as \[Sharp20\] does. Only a triangle that has no area when all flips are done gets one
+/// of 1e-8 times the square of its longest side. Where all vertices coincide, all triangles are equilateral.
 ///
 /// # Properties
 /// n × n, symmetric, positive semi-definite; constants are in its kernel. Weights are not negative, but for edges of the mesh
-/// on its boundary or with more than two triangles, which may be. Where no length had to be changed, fᵀLf is not larger than
+/// on its boundary or with more than two triangles, which may be. Where all triangles have an area, fᵀLf is not larger than
 /// with the cotangent Laplacian whatever f is \[Rippa90\], and L is the same for all triangulations of one flat region.
 /// Besides the edges of the new triangulation all those of the mesh are stored, with zeros where they are flipped. Rows and
 /// columns of isolated vertices are zero.
@@ -62,8 +62,8 @@ pub(super) fn laplacian(mesh: &TriMesh, watch: &Watch<'_>) -> Result<CscMatrix<f
     let before = mesh.connectivity().edges();
     memory::ensure(Triangulation::bytes(before.len(), mesh.triangle_count()))?;
     watch.tick(3 * SUMMED * before.len() as u64)?;
-    let lengths = lengths::edge_lengths(mesh);
-    let mut triangulation = Triangulation::new(mesh.connectivity(), lengths, watch)?;
+    let measured = lengths::measured(mesh);
+    let mut triangulation = Triangulation::new(mesh.connectivity(), measured, watch)?;
     triangulation.make_delaunay(watch)?;
     let mut weights = triangulation.weights(watch)?;
 

@@ -3,7 +3,7 @@
 //! The surface is glued of triangles side by side, and nothing else is asked of it: a triangle may be glued to itself, have a
 //! vertex at several corners, or share several sides with another. Neither need it be oriented.
 
-use super::lengths::{area, four_areas_cotangent};
+use super::lengths::{EQUILATERAL, four_areas_cotangent};
 use crate::error::Cancelled;
 use crate::mesh::Connectivity;
 use crate::support::pieces::{pieces, ranges};
@@ -21,6 +21,13 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// vertices need n²/2 flips at most and a mesh of up to 1000 edges is never cut short; usual surfaces need a few
 /// flips per edge. Where flips run out, edges that are not Delaunay keep their negative weights.
 const FLIPS_PER_EDGE: u64 = 1000;
+
+/// Areas up to this share of the squared longest side are taken for none, and what stands for them: as if the triangle were 2e-8 times
+/// as high as long. Vertices that coincide are held together with a weight of 2.5e7, so that their values agree to seven digits.
+const NOTHING: f64 = 1e-15;
+const SUBSTITUTE: f64 = 1e-8;
+/// Squares of lengths below this are lost, where the largest difference of coordinates is about 1.
+const POINT: f64 = 1e-140;
 
 /// The work with a triangle that is copied or weighed, with an edge that is looked at, and with a flip.
 const TRIANGLE: u64 = 80;
@@ -48,15 +55,17 @@ impl Triangulation {
         32 * m as u64 + 17 * edges as u64 + 9 * edges as u64
     }
 
-    pub(super) fn new(connectivity: &Connectivity, lengths: Vec<f64>, watch: &Watch<'_>) -> Result<Self, Cancelled> {
+    pub(super) fn new(
+        connectivity: &Connectivity,
+        (lengths, areas): (Vec<f64>, Vec<f64>),
+        watch: &Watch<'_>,
+    ) -> Result<Self, Cancelled> {
         let corners = connectivity.triangles().to_vec();
         let edges = connectivity.triangle_edges().to_vec();
         let mut sides = vec![[NONE; 2]; lengths.len()];
         let mut same_way = vec![false; lengths.len()];
-        let mut areas = Vec::with_capacity(corners.len());
         for range in ranges(corners.len(), TRIANGLE, watch) {
             for t in range? {
-                areas.push(area(edges[t].map(|e| lengths[e as usize])));
                 for c in 0..3 {
                     let edge = edges[t][c] as usize;
                     if connectivity.triangles_of_edge(edge as u32).len() == 2 {
@@ -140,12 +149,17 @@ impl Triangulation {
         let ([i, j, k], [_, _, m]) = (rotated(self.corners[t], c), rotated(self.corners[u], d));
         let ([_, jk, ki], [_, im, mj]) = (rotated(self.edges[t], c), rotated(self.edges[u], d));
         let [a, b, p, q] = [ki, jk, im, mj].map(|edge| self.lengths[edge as usize]);
-        // With the edge as axis, k and m lie at these distances from each other along it and across.
-        let along = ((a - b) * (a + b) - (p - q) * (p + q)) / (2.0 * self.lengths[e]);
-        let across = 2.0 * (self.areas[t] + self.areas[u]) / self.lengths[e];
-        let length = (along * along + across * across).sqrt();
-        let areas = [area([a, p, length]), area([q, b, length])];
-        if areas[0] == 0.0 || areas[1] == 0.0 {
+        // With the edge as axis from i to j, k lies above it and m below.
+        let axis = self.lengths[e];
+        let [above, below] = [self.areas[t], self.areas[u]].map(|area| 2.0 * area / axis);
+        let along = |to_i: f64, to_j: f64| 0.5 * (axis + (to_i - to_j) * (to_i + to_j) / axis);
+        let [from_i_to_k, from_i_to_m] = [along(a, b), along(p, q)];
+        let [from_j_to_k, from_j_to_m] = [along(b, a), along(q, p)];
+        let (across, shift) = (above + below, ((a - b) * (a + b) - (p - q) * (p + q)) / (2.0 * axis));
+        let length = (shift * shift + across * across).sqrt();
+        let areas =
+            [0.5 * (from_i_to_k * below + from_i_to_m * above), 0.5 * (from_j_to_k * below + from_j_to_m * above)];
+        if !(areas[0] > 0.0 && areas[1] > 0.0) {
             return None;
         }
         self.relocate([
@@ -198,18 +212,25 @@ impl Triangulation {
         }
     }
 
+    /// Half the cotangents of a triangle's angles, by the opposite edges. Where it has no area, or where only rounding tells of one,
+    /// another area stands for it; one that is all but a point is equilateral.
+    fn half_cotangents(&self, t: usize) -> [f64; 3] {
+        let longest = self.edges[t].iter().fold(0.0_f64, |longest, &edge| longest.max(self.lengths[edge as usize]));
+        if longest < POINT {
+            return [0.125 / EQUILATERAL; 3];
+        }
+        let square = longest * longest;
+        let area = if self.areas[t] > NOTHING * square { self.areas[t] } else { SUBSTITUTE * square };
+        [0, 1, 2].map(|c| self.opposite((3 * t + c) as u32).four_areas_cotangent / (8.0 * area))
+    }
+
     /// Half the cotangents opposite to every edge, summed; not negative where an edge has two triangles and is Delaunay.
     pub(super) fn weights(&self, watch: &Watch<'_>) -> Result<Vec<f64>, Cancelled> {
         let mut weights = vec![0.0; self.sides.len()];
         for range in ranges(self.edges.len(), TRIANGLE, watch) {
             for t in range? {
-                // Lengths with their slack always leave an area, but a division must not depend on an argument.
-                if self.areas[t] == 0.0 {
-                    continue;
-                }
-                for (c, &edge) in self.edges[t].iter().enumerate() {
-                    let opposite = self.opposite((3 * t + c) as u32);
-                    weights[edge as usize] += opposite.four_areas_cotangent / (8.0 * self.areas[t]);
+                for (half_cotangent, &edge) in self.half_cotangents(t).into_iter().zip(&self.edges[t]) {
+                    weights[edge as usize] += half_cotangent;
                 }
             }
         }

@@ -21,7 +21,7 @@ const USUAL_ROUNDS: usize = 4;
 /// And so many are the most.
 const MOST_ROUNDS: usize = 10;
 /// What a step may lack, relative to the margin, and what of it the multipliers leave.
-const LACKING: f64 = 0.02;
+const LACKING: f64 = 1e-4;
 const LEFT: f64 = 0.1;
 /// A step is a combination of others where less of its own is left than this share.
 const DEPENDENT: f64 = 1e-9;
