@@ -24,7 +24,7 @@ use crate::support::watch::Watch;
 ///
 /// Lengths are those of the mesh, to the last bit, and areas those of its triangles, however thin: nothing is added to lengths so
 /// that triangles keep away from degeneracy, as \[Sharp20\] does. Only a triangle that has no area when all flips are done gets one
-/// of 1e-8 times the square of its longest side. Where all vertices coincide, all triangles are equilateral.
+/// of 1e-5 times the square of its longest side. Where all vertices coincide, all triangles are equilateral.
 ///
 /// # Properties
 /// n × n, symmetric, positive semi-definite; constants are in its kernel. Weights are not negative, but for edges of the mesh

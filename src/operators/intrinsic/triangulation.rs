@@ -3,7 +3,7 @@
 //! The surface is glued of triangles side by side, and nothing else is asked of it: a triangle may be glued to itself, have a
 //! vertex at several corners, or share several sides with another. Neither need it be oriented.
 
-use super::lengths::{EQUILATERAL, four_areas_cotangent};
+use super::lengths::{EQUILATERAL, area, four_areas_cotangent};
 use crate::error::Cancelled;
 use crate::mesh::Connectivity;
 use crate::support::pieces::{pieces, ranges};
@@ -22,10 +22,10 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// flips per edge. Where flips run out, edges that are not Delaunay keep their negative weights.
 const FLIPS_PER_EDGE: u64 = 1000;
 
-/// Areas up to this share of the squared longest side are taken for none, and what stands for them: as if the triangle were 2e-8 times
-/// as high as long. Vertices that coincide are held together with a weight of 2.5e7, so that their values agree to seven digits.
+/// Areas up to this share of the squared longest side are taken for none, and what stands for them in weights: as if the triangle were
+/// 2e-5 times as high as long. Vertices that coincide are held together with a weight of 25,000.
 const NOTHING: f64 = 1e-15;
-const SUBSTITUTE: f64 = 1e-8;
+const SUBSTITUTE: f64 = 1e-5;
 /// Squares of lengths below this are lost, where the largest difference of coordinates is about 1.
 const POINT: f64 = 1e-140;
 
@@ -45,6 +45,8 @@ pub(super) struct Triangulation {
     same_way: Vec<bool>,
     lengths: Vec<f64>,
     areas: Vec<f64>,
+    /// Whether a triangle has no area, or one that only rounding tells of: `areas` then has a tiny one in its place.
+    is_flat: Vec<bool>,
 }
 
 impl Triangulation {
@@ -52,7 +54,7 @@ impl Triangulation {
     pub(super) fn bytes(edges: usize, m: usize) -> u64 {
         // Corners, edges and areas of the triangles; sides and lengths of the edges, and how the sides run. Besides, while edges
         // are flipped, two rounds of them and whether they are in one, or after that their weights.
-        32 * m as u64 + 17 * edges as u64 + 9 * edges as u64
+        33 * m as u64 + 17 * edges as u64 + 9 * edges as u64
     }
 
     pub(super) fn new(
@@ -77,7 +79,9 @@ impl Triangulation {
                 }
             }
         }
-        Ok(Self { corners, edges, sides, same_way, lengths, areas })
+        let mut triangulation = Self { corners, edges, sides, same_way, lengths, areas, is_flat: Vec::new() };
+        triangulation.is_flat = (0..triangulation.areas.len()).map(|t| triangulation.is_without_area(t)).collect();
+        Ok(triangulation)
     }
 
     /// Flips edges until all that have two triangles are Delaunay.
@@ -157,8 +161,11 @@ impl Triangulation {
         let [from_j_to_k, from_j_to_m] = [along(b, a), along(q, p)];
         let (across, shift) = (above + below, ((a - b) * (a + b) - (p - q) * (p + q)) / (2.0 * axis));
         let length = (shift * shift + across * across).sqrt();
-        let areas =
-            [0.5 * (from_i_to_k * below + from_i_to_m * above), 0.5 * (from_j_to_k * below + from_j_to_m * above)];
+        // By the lengths where these tell the area well, so that neither strays from the other in many flips.
+        let areas = [
+            area([a, p, length]).unwrap_or(0.5 * (from_i_to_k * below + from_i_to_m * above)),
+            area([q, b, length]).unwrap_or(0.5 * (from_j_to_k * below + from_j_to_m * above)),
+        ];
         if !(areas[0] > 0.0 && areas[1] > 0.0) {
             return None;
         }
@@ -176,6 +183,10 @@ impl Triangulation {
         self.lengths[e] = length;
         self.areas[t] = areas[0];
         self.areas[u] = areas[1];
+        let are_flat = self.is_flat[t] && self.is_flat[u];
+        for triangle in [t, u] {
+            self.is_flat[triangle] = are_flat || self.is_without_area(triangle);
+        }
         Some([ki, im, mj, jk])
     }
 
@@ -212,15 +223,23 @@ impl Triangulation {
         }
     }
 
+    fn longest(&self, t: usize) -> f64 {
+        self.edges[t].iter().fold(0.0, |longest, &edge| self.lengths[edge as usize].max(longest))
+    }
+
+    fn is_without_area(&self, t: usize) -> bool {
+        let longest = self.longest(t);
+        longest < POINT || self.areas[t] <= NOTHING * longest * longest
+    }
+
     /// Half the cotangents of a triangle's angles, by the opposite edges. Where it has no area, or where only rounding tells of one,
     /// another area stands for it; one that is all but a point is equilateral.
     fn half_cotangents(&self, t: usize) -> [f64; 3] {
-        let longest = self.edges[t].iter().fold(0.0_f64, |longest, &edge| longest.max(self.lengths[edge as usize]));
+        let longest = self.longest(t);
         if longest < POINT {
             return [0.125 / EQUILATERAL; 3];
         }
-        let square = longest * longest;
-        let area = if self.areas[t] > NOTHING * square { self.areas[t] } else { SUBSTITUTE * square };
+        let area = if self.is_flat[t] { SUBSTITUTE * longest * longest } else { self.areas[t] };
         [0, 1, 2].map(|c| self.opposite((3 * t + c) as u32).four_areas_cotangent / (8.0 * area))
     }
 
@@ -236,9 +255,13 @@ impl Triangulation {
         }
         watch.tick(weights.len() as u64)?;
         for (edge, weight) in weights.iter_mut().enumerate() {
-            if *weight < 0.0 && self.sides[edge][0] != NONE && self.is_delaunay(edge as u32) {
-                // By rounding.
-                *weight = 0.0;
+            let [side, other] = self.sides[edge];
+            if *weight < 0.0 && side != NONE {
+                // By rounding, or beside a triangle whose area is made up.
+                let is_made_up = [side, other].iter().any(|side| self.is_flat[*side as usize / 3]);
+                if is_made_up || self.is_delaunay(edge as u32) {
+                    *weight = 0.0;
+                }
             }
         }
         Ok(weights)
