@@ -134,3 +134,9 @@ pub(super) fn norm_of_columns(
 fn finite(factor: f64) -> Option<f64> {
     factor.is_finite().then(|| factor.max(1.0))
 }
+
+/// The bound of the whole, where besides what it is for, `constant` vertices take the value of one: these are moved as one is, √`constant`
+/// times as far in all.
+pub(super) fn with_constants(bound: Option<f64>, constant: usize) -> Option<f64> {
+    bound.map(|bound| bound.max((constant as f64).sqrt()))
+}

@@ -205,3 +205,24 @@ pub(super) fn level_constant_components(
         }
     }
 }
+
+/// Components with a single constrained vertex have its value everywhere by every method, whatever the values are: they need not be
+/// solved for. Takes their vertices out of `unknowns`, and tells the number of vertices of the largest one, 0 where there is none.
+pub(super) fn leave_out_constant_components(
+    active: &ActiveVertices,
+    set: &ConstraintSet,
+    unknowns: &mut Vec<u32>,
+) -> usize {
+    let mut constrained = vec![0_u32; active.first_vertices().len()];
+    for &v in &set.vertices {
+        if let Some(component) = active.component(v) {
+            constrained[component] += 1;
+        }
+    }
+    let mut sizes = vec![0; constrained.len()];
+    for component in active.list().iter().filter_map(|&v| active.component(v)) {
+        sizes[component] += usize::from(constrained[component] == 1);
+    }
+    unknowns.retain(|&v| active.component(v).is_none_or(|component| sizes[component] == 0));
+    sizes.into_iter().max().unwrap_or(0)
+}

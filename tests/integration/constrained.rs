@@ -274,3 +274,102 @@ fn iterations_on_needles_converge_or_say_that_they_do_not() {
     // Without symmetry, and with a mass of needles.
     assert!(agreed > 80 && refused < 40, "{agreed} {refused}");
 }
+
+/// With a single constrained vertex in a component its value is the answer, on whatever triangles.
+#[test]
+fn one_constraint_makes_a_component_constant() {
+    let thin = crate::support::mesh(&[[1.98e-4, 1.82, 0.], [2.07e-4, 2.9, 0.], [4.09e-4, 3.17, 0.]], &[[0, 1, 2]]);
+    let thinner = crate::support::mesh(
+        &[[5.31e-8, 0.531, 0.], [4.51e-8, 1.3, 0.], [1.28e-7, 0.271, 0.], [1.77e-7, 1.03, 0.]],
+        &[[0, 2, 3], [0, 3, 1]],
+    );
+    let sphere = shapes::sphere(2).expect("a sphere");
+    for (mesh, vertex) in [(&thin, 1), (&thinner, 0), (&sphere, 7)] {
+        let f = field(mesh);
+        let n = mesh.vertex_count() as f64;
+        for operator in [Operator::Paper, Operator::FiniteElement] {
+            for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue] {
+                if operator == Operator::FiniteElement && weights != LaplacianWeights::Cotangent {
+                    continue;
+                }
+                let options = SmootherOptions { operator, weights, bounds: true, ..SmootherOptions::default() };
+                let mut smoother = Smoother::new(mesh, options).expect("a smoother");
+                let mut results: Vec<Smoothed> = ENERGIES
+                    .map(|energy| interpolate(&mut smoother, &f, &[vertex], energy).expect("a constant field"))
+                    .into();
+                if operator == Operator::Paper {
+                    results.push(fit(&mut smoother, &f, &[vertex], None, 1.0).expect("a constant field"));
+                }
+                for result in results {
+                    assert!(result.values.iter().all(|x| x.to_bits() == f[vertex as usize].to_bits()), "constant");
+                    // All move as far as the one does.
+                    let factor = result.reports[0].perturbation_factor.expect("a factor");
+                    assert!((factor - n.sqrt()).abs() <= 1e-12 * n, "{factor}");
+                }
+            }
+        }
+    }
+    // A component with one constraint beside one with several: each as if it were alone.
+    let two = {
+        let grid = shapes::grid(6, 5).expect("a grid");
+        let count = grid.vertex_count() as u32;
+        let shifted = grid.positions().chunks_exact(3).flat_map(|p| [p[0] + 9.0, p[1], p[2]]);
+        let positions = grid.positions().iter().copied().chain(shifted).collect();
+        let triangles = grid.connectivity().triangles().as_flattened();
+        let triangles = triangles.iter().copied().chain(triangles.iter().map(|v| v + count)).collect();
+        TriMesh::new(positions, triangles).expect("two grids")
+    };
+    let f = field(&two);
+    let alone = shapes::grid(6, 5).expect("a grid");
+    let mut smoother = Smoother::new(&alone, SmootherOptions::default()).expect("a smoother");
+    let expected = interpolate(&mut smoother, &f[..30], &[0, 29, 12], Energy::Harmonic).expect("a field");
+    let mut smoother = Smoother::new(&two, SmootherOptions::default()).expect("a smoother");
+    let found = interpolate(&mut smoother, &f, &[0, 29, 12, 44], Energy::Harmonic).expect("a field");
+    for v in 0..30 {
+        assert!((found.values[v] - expected.values[v]).abs() <= 1e-9, "vertex {v}");
+    }
+    assert!(found.values[30..].iter().all(|x| x.to_bits() == f[44].to_bits()));
+}
+
+/// However large ε is, conjugate gradients find what the constraints leave open.
+#[test]
+fn large_epsilons_converge_by_conjugate_gradients() {
+    let grid = shapes::grid(3, 3).expect("a grid");
+    let sphere = shapes::sphere(2).expect("a sphere");
+    for (mesh, vertices) in [(&grid, vec![0, 5, 6]), (&sphere, vec![0, 11, 50, 90, 140])] {
+        let f = field(mesh);
+        for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue, LaplacianWeights::NormalizedCotangent]
+        {
+            let l = crate::support::dense(
+                &morse_smooth::operators::laplacian(mesh, weights, &morse_smooth::Watch::none()).expect("a Laplacian"),
+            );
+            for epsilon in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e12, 1e15] {
+                let options =
+                    SmootherOptions { weights, solver: SolverChoice::ConjugateGradient, ..SmootherOptions::default() };
+                let mut smoother = Smoother::new(mesh, options).expect("a smoother");
+                let found = fit(&mut smoother, &f, &vertices, None, epsilon);
+                let found = found.unwrap_or_else(|error| panic!("{weights:?}, ε = {epsilon:e}: {error}"));
+                // The heavy rows first: so Householder's reflections lose nothing of the light ones.
+                let (n, k) = (f.len(), vertices.len());
+                let mut rows = nalgebra::DMatrix::zeros(n + k, n);
+                let mut right = nalgebra::DVector::zeros(n + k);
+                for (row, &v) in vertices.iter().enumerate() {
+                    rows[(row, v as usize)] = epsilon.sqrt();
+                    right[row] = epsilon.sqrt() * f[v as usize];
+                }
+                rows.view_mut((k, 0), (n, n)).copy_from(&l);
+                let factored = rows.qr();
+                let image = factored.q().transpose() * right;
+                let expected = factored.r().solve_upper_triangular(&image).expect("a regular matrix");
+                for v in 0..n {
+                    assert!(
+                        (found.values[v] - expected[v]).abs() <= 1e-6,
+                        "{weights:?}, ε = {epsilon:e}, vertex {v}: {} {}",
+                        found.values[v],
+                        expected[v]
+                    );
+                }
+            }
+        }
+    }
+}

@@ -7,7 +7,7 @@ use crate::field::Missing;
 #[cfg(doc)]
 use crate::smooth::Smoother;
 use crate::smooth::channels::Channel;
-use crate::smooth::constraints::Constraints;
+use crate::smooth::constraints::{Constraints, leave_out_constant_components};
 use crate::smooth::input::Input;
 use crate::smooth::maximum_principle::Certifier;
 use crate::smooth::names::{Equation, MethodName};
@@ -63,6 +63,7 @@ pub(in crate::smooth) fn start(
     let mut stages = schedule.stages(watch);
     let (set, components) = constrained(input, &options.constraints, &mut stages)?;
     let mut free = components.remaining(&operators.active);
+    let constant = leave_out_constant_components(&operators.active, &set, &mut free);
     free.retain(|v| set.vertices.binary_search(v).is_err());
     let system = systems.reduced(operators, options.energy, &free, watch)?;
     let constrained = set.vertices.clone();
@@ -73,7 +74,7 @@ pub(in crate::smooth) fn start(
         constraints: Some(set),
         unconstrained: Some(components),
     };
-    let mut procedure = Interpolation { operators, system, constrained, certifier: None };
+    let mut procedure = Interpolation { operators, system, constrained, constant, certifier: None };
     run(input, &about, &mut procedure, stages)
 }
 
@@ -82,6 +83,8 @@ struct Interpolation<'a> {
     system: &'a mut ReducedSystem,
     /// The constrained vertices, ascending.
     constrained: Vec<u32>,
+    /// The vertices of the largest component with a single constrained one, which are not solved for.
+    constant: usize,
     /// For the harmonic energy, once a channel is solved for.
     certifier: Option<Certifier<'a>>,
 }
@@ -90,7 +93,8 @@ impl Procedure for Interpolation<'_> {
     fn solve(&mut self, group: &[Channel], is_first: bool, stages: &mut Stages<'_, '_>) -> Result<Found> {
         let settings = settings(self.operators.options, is_first);
         let solved = self.system.solve(&self.operators.laplacian, group, settings, stages)?;
-        let perturbation_factor = if settings.bounds { self.perturbation_factor(&solved) } else { None };
+        let factor = if settings.bounds { self.perturbation_factor(&solved) } else { None };
+        let perturbation_factor = bounds::with_constants(factor, self.constant);
         if self.system.energy() == Energy::Harmonic && self.certifier.is_none() {
             let Operators { mesh, laplacian, .. } = self.operators;
             memory::ensure(2 * mesh.vertex_count() as u64 + 16 * laplacian.nnz() as u64)?;

@@ -6,7 +6,7 @@ use crate::error::{Result, SmoothError};
 use crate::field::{Features, Missing};
 #[cfg(doc)]
 use crate::smooth::Smoother;
-use crate::smooth::constraints::{ConstraintSet, Constraints};
+use crate::smooth::constraints::{ConstraintSet, Constraints, leave_out_constant_components};
 use crate::smooth::data_term::Norm;
 use crate::smooth::input::Input;
 use crate::smooth::names::{Equation, MethodName};
@@ -60,9 +60,11 @@ pub(in crate::smooth) fn start(
         groups: input.channels.group_count(),
     });
     let mut stages = schedule.stages(watch);
-    let Regularization { about, unknowns, term } = regularization(input, options, &mut stages)?;
+    let Regularization { about, mut unknowns, term } = regularization(input, options, &mut stages)?;
+    let leave_out = |set| leave_out_constant_components(&operators.active, set, &mut unknowns);
+    let constant = about.constraints.as_ref().map_or(0, leave_out);
     let system = systems.regularized(operators, &unknowns, &term, watch)?;
-    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
+    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options, constant };
     run(input, &about, &mut procedure, stages)
 }
 

@@ -27,6 +27,8 @@ pub(super) struct Regularized<'a> {
     pub(super) system: &'a mut RegularizedSystem,
     pub(super) epsilon: f64,
     pub(super) options: SmootherOptions,
+    /// The vertices of the largest component whose values are one constrained one, and which is not solved for.
+    pub(super) constant: usize,
 }
 
 /// The data term in a norm, over the vertices that have values.
@@ -43,6 +45,7 @@ impl Procedure for Regularized<'_> {
             true => perturbation_factor(self.system.mass(), &solved, self.epsilon),
             false => None,
         };
+        let perturbation_factor = bounds::with_constants(perturbation_factor, self.constant);
         Ok(Found { solutions: solutions(self.system.unknowns(), solved), perturbation_factor })
     }
 

@@ -102,7 +102,7 @@ pub(in crate::smooth) fn start(
     let (work, analysis, factorization) = system.forecast(options.epsilon, settings(operators.options, true));
     let groups = input.channels.group_count();
     let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
-    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options };
+    let mut procedure = Regularized { system, epsilon: options.epsilon, options: operators.options, constant: 0 };
     run(input, &about, &mut procedure, schedule.stages(watch))
 }
 

@@ -95,6 +95,7 @@ fn product(
         tolerance,
         // L is positive semi-definite, so |⟨z, (L + iD) z⟩| ≥ min D · ‖z‖².
         inverse_norm: shift.iter().copied().reduce(f64::min).map(f64::recip),
+        start: None,
         ticks: task.problem.ticks(),
         residual: &residual,
         solve: &mut |residuals, _| {

@@ -139,11 +139,16 @@ fn refined_within(
         let _: Result<(), Cancelled> = watch.tick(task.problem.ticks());
         task.problem.apply(x)
     };
+    // Where some unknowns are beyond the data term, the data are most of the right-hand side if ε is large: what is left when they are
+    // met tells how far the others are.
+    let start = task.problem.data().filter(|data| data.mass.has_gaps());
+    let start = start.map(|data| move |c: usize| data.met(&task.right_hand_sides[c]));
     let refinement = Refinement {
         count: task.right_hand_sides.len(),
         length: n,
         tolerance: task.tolerance(Precision::Double),
         inverse_norm: None,
+        start: start.as_ref().map(|start| start as &dyn Fn(usize) -> Vec<f64>),
         ticks: task.problem.ticks(),
         residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
         solve: &mut |right_hand_sides, iterations| {

@@ -63,6 +63,14 @@ impl DataPart<'_> {
         self.epsilon.max(1.0)
     }
 
+    /// The values where the data term reaches, and their mean elsewhere.
+    pub(super) fn met(&self, side: &RightHandSide) -> Vec<f64> {
+        let reaches = |i: usize| self.mass.diagonal(i) > 0.0;
+        let known: Vec<f64> = (0..side.field.len()).filter(|&i| reaches(i)).map(|i| side.field[i]).collect();
+        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        side.field.iter().enumerate().map(|(i, &f)| if reaches(i) { f } else { mean }).collect()
+    }
+
     /// ε in the system that is divided by the scale.
     pub(in crate::smooth) fn scaled_epsilon(&self) -> f64 {
         self.epsilon / self.scale()

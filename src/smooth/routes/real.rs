@@ -97,6 +97,7 @@ impl RealRoute {
             count: task.right_hand_sides.len(),
             length: task.problem.unknowns(),
             tolerance: task.tolerance(precision),
+            start: None,
             inverse_norm: None,
             ticks: task.problem.ticks(),
             residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),

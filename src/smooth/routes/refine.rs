@@ -36,6 +36,8 @@ pub(super) struct Refinement<'a> {
     pub(super) inverse_norm: Option<f64>,
     /// About how long a residual takes, in ticks.
     pub(super) ticks: u64,
+    /// An approximate solution to start from, in place of zero.
+    pub(super) start: Option<&'a dyn Fn(usize) -> Vec<f64>>,
     /// The residual of a right-hand side at an approximate solution; at zero, which may be empty, it is the right-hand side itself.
     pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
@@ -44,7 +46,7 @@ pub(super) struct Refinement<'a> {
 
 type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError> + 'a;
 
-/// Starts from zero and adds the solution for the residual until little is added, for each right-hand side for as long as
+/// Starts from zero, or what is given, and adds the solution for the residual until little is added, for each right-hand side for as long as
 /// it needs.
 ///
 /// A step leaves an error of about the correction times the factor by which corrections shrink; the first correction,
@@ -53,10 +55,10 @@ type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>
 /// # Errors
 /// `NotConverged` where corrections do not shrink; `Cancelled`; those of the solver.
 pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iterate>, SolveError> {
-    let Refinement { count, length: n, tolerance, inverse_norm, ticks, residual, solve } = task;
+    let Refinement { count, length: n, tolerance, inverse_norm, ticks, start, residual, solve } = task;
     let mut plan = watch.plan(&ROUNDS);
-    let start = Iterate { x: vec![0.0; n], ..Iterate::default() };
-    let mut iterates = vec![start; count];
+    let x = |c: usize| start.map_or_else(|| vec![0.0; n], |start| start(c));
+    let mut iterates: Vec<Iterate> = (0..count).map(|c| Iterate { x: x(c), ..Iterate::default() }).collect();
     let mut open: Vec<usize> = (0..count).collect();
     let (mut previous, mut slowest) = (vec![1.0; count], vec![0.0_f64; count]);
     for step in 0..=MOST_STEPS {
@@ -64,7 +66,8 @@ pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iter
         watch.tick(ticks * open.len() as u64)?;
         let mut residuals = Vec::with_capacity(open.len() * n);
         open.retain(|&c| {
-            let rest = if tolerance.is_finite() { residual(c, &iterates[c].x) } else { residual(c, &[]) };
+            let rest =
+                if tolerance.is_finite() || start.is_some() { residual(c, &iterates[c].x) } else { residual(c, &[]) };
             let error = inverse_norm.map_or(f64::INFINITY, |inverse| inverse * norm(&rest));
             let is_open = step == 0 || error.is_nan() || error > PROVEN * norm(&iterates[c].x);
             if is_open {
