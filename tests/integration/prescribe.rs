@@ -212,9 +212,10 @@ fn small_optima_are_those_of_a_dense_barrier_method() {
             .edges()
             .iter()
             .map(|&[a, b]| {
-                let (a, b) = if x[a as usize] < x[b as usize] { (a, b) } else { (b, a) };
+                let (a, b) = if x[a as usize] <= x[b as usize] { (a, b) } else { (b, a) };
                 let (a, b) = (a as usize, b as usize);
-                (a, b, (x[b] - x[a]).min(1e-3))
+                // A little less, so that there are fields between: neighbours may have the same value, each a step above a third one.
+                (a, b, (x[b] - x[a]).min(1e-3) - 1e-9)
             })
             .collect();
         let mut start = DVector::zeros(x.len());
