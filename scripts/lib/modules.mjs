@@ -81,6 +81,29 @@ export const modules = Object.fromEntries(
   }),
 );
 
+/**
+ * Entries without a WebAssembly module of their own, told as above. `standalone`: scripts that need no other file, by their place in dist/;
+ * `embedded`: the same as texts in scripts, each by the name of the script.
+ */
+export const others = {
+  worker: {
+    entry: 'morse-smooth/worker',
+    bundles: { 'worker.js': 'worker.js', 'worker-node.cjs': 'worker-node.js' },
+    standalone: { 'worker-script.js': 'worker-script.js', 'worker-script-node.cjs': 'worker-script-node.js' },
+    embedded: { 'worker-embedded.js': 'worker-script.js', 'worker-embedded-node.cjs': 'worker-script-node.js' },
+    copies: ['worker-node.mjs', 'worker-script.d.ts'],
+    types: { worker: ['worker'] },
+    exports: {
+      './worker': exported('worker', 'worker-node'),
+      './worker-script': {
+        types: './dist/worker-script.d.ts',
+        node: './dist/worker-script-node.cjs',
+        default: './dist/worker-script.js',
+      },
+    },
+  },
+};
+
 /** What cargo is told to compile a module with, and nothing else. */
 export const cargoFeatures = ({ feature }) => ['--no-default-features', '--features', feature];
 
