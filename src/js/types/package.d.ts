@@ -106,6 +106,7 @@ export class MorseSmoothError extends Error {
    *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached)
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - any long call: `Cancelled`, where `onProgress` stopped it; `OutOfMemory` (`bytes` needed), after which everything goes on
+   * - `morse-smooth/worker`: `ConnectionClosed`, `WorkerLost` (`reason`)
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`, `InstanceLost` (see {@link init})
    * - `InternalError`: a bug of ours, always worth a report
    */

@@ -8,10 +8,10 @@ import { callOf } from './table.js';
 import { Thread } from './thread.js';
 
 /**
- * How many milliseconds a call may go on that was to stop, before its worker is ended: where it can be asked it answers within 50, and
- * where it cannot there is a chance that it is over soon.
+ * How many milliseconds a call may go on that was to stop, before its worker is ended. Calls that can be asked answer within 50, on large
+ * meshes and busy machines later, but sooner than another worker is there; of the others, most are over soon.
  */
-const PATIENCE = { asked: 90, silent: 40 };
+const PATIENCE = { asked: 300, silent: 40 };
 
 /** Codes after which nothing that lives in the worker can be used. */
 const DISORDER = ['InternalError', 'InstanceLost'];
@@ -248,7 +248,7 @@ export class Connection {
     }
     thread.ask();
     if (!thread.canEnd) return;
-    const least = thread.canAsk ? PATIENCE.asked : PATIENCE.silent;
+    const least = thread.canAsk && job.call.isWatched ? PATIENCE.asked : PATIENCE.silent;
     setTimeout(() => thread.job === job && !thread.isOver && this.#replaceAndGoOn(thread), Math.max(least, patience));
   }
 

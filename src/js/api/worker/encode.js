@@ -73,8 +73,8 @@ function revived(value, objects) {
 
 function encodeView(view, takesOver) {
   const name = typedArrayName(view);
-  // A DataView has no such name.
-  if (name === undefined) return { [MARK]: 'foreign' };
+  // No array, and nothing that is taken.
+  if (name === 'DataView') return { [MARK]: 'foreign' };
   const { buffer } = view;
   if (view.byteLength === 0 && isDetached(buffer)) return { [MARK]: 'detached', name };
   const isWhole = takesOver && isBuffer(buffer) && view.byteLength === buffer.byteLength;
