@@ -4,6 +4,9 @@ import { loaderOf } from '../../runtime/load.js';
 /** What each module exports and no other, as in the modules themselves. */
 const MARKS = { core: 'rawtrimesh_new', files: 'readMesh', snapshot: 'rawscene_new' };
 
+/** The code that came from the package's own files, for all connections. */
+const own = {};
+
 /** The compiled code of the modules: loaded once, for all workers. */
 export class Codes {
   #sources;
@@ -33,11 +36,14 @@ export class Codes {
 
   async #load(name) {
     const given = this.#given[name];
-    const sources = given === undefined || given === null ? this.#sources[name] : [() => given];
+    const isOwn = given === undefined || given === null;
+    if (isOwn && own[name]) return (this.#codes[name] = own[name]);
     let failure;
-    for (const source of sources) {
+    for (const source of isOwn ? this.#sources[name] : [() => given]) {
       try {
-        return (this.#codes[name] = await codeFrom(await source(), MARKS[name]));
+        this.#codes[name] = await codeFrom(await source(), MARKS[name]);
+        if (isOwn) own[name] = this.#codes[name];
+        return this.#codes[name];
       } catch (error) {
         failure ??= error;
       }

@@ -8,6 +8,7 @@ import { pictures } from '../snapshot/module.js';
 import { isRecord } from '../../runtime/convert.js';
 import { buffersIn, decode } from './encode.js';
 import { toReport } from './reports.js';
+import { hearing } from './stopping.js';
 import { GREETING, callOf, classes } from './table.js';
 
 const modules = { core: coreModule, files: filesModule, snapshot: pictures };
@@ -18,9 +19,10 @@ export function answer(message) {
   if (typeof message === 'object' && message !== null && GREETING in message) serve(message);
 }
 
-/** Serves one connection. `flag`, where memory can be shared, holds the number of the call that shall stop. */
-function serve({ port, flag, [GREETING]: codes }) {
+/** Serves one connection. */
+function serve({ port, [GREETING]: codes, ...greeting }) {
   const objects = new Map();
+  const stopOf = hearing(greeting);
   const post = (message) => port.postMessage(message, [...buffersIn(message)]);
   const fail = (id, error, made) => post({ id, error: toReport(error), made });
   try {
@@ -33,19 +35,19 @@ function serve({ port, flag, [GREETING]: codes }) {
     if (data.call) run(data);
     if (data.isClosed) close();
   };
-  post({ id: 0, value: null, made: [] });
+  post({ id: 0, value: { canHear: stopOf !== null }, made: [] });
 
-  function run({ id, codes, makes, call, isHeard }) {
+  function run({ id, codes, makes, call, isHeard, address }) {
     const made = [];
+    const isStopped = stopOf === null ? () => false : stopOf(id, address);
+    const goesOn = () => !isStopped();
     const watch = (progress) => {
-      if (flag && Atomics.load(flag, 0) === id) return false;
-      if (isHeard && progress) port.postMessage({ id, progress });
-      return true;
+      if (isHeard) port.postMessage({ id, progress });
+      return goesOn();
     };
-    const quiet = () => !flag || Atomics.load(flag, 0) !== id;
     try {
       start(codes);
-      for (const make of makes) made.push({ object: make.makes, time: timeOf(() => restore(make, quiet)) });
+      for (const make of makes) made.push({ object: make.makes, time: timeOf(() => restore(make, goesOn)) });
       let answer;
       const time = timeOf(() => {
         answer = perform(call, watch);

@@ -1,5 +1,6 @@
 import { lost, notStarted } from './failures.js';
 import { fromReport } from './reports.js';
+import { Stopper } from './stopping.js';
 import { GREETING } from './table.js';
 
 /** A worker with its end of the connection: which objects live in it, and which call runs in it. */
@@ -8,12 +9,14 @@ export class Thread {
   objects = new Map();
   /** The call that runs there. */
   job = null;
+  /** Whether a call stops when it is told to, instead of with the worker only. */
+  canAsk = false;
   isReady = false;
   isOver = false;
   #host;
   #worker = null;
   #port = null;
-  #flag = sharedFlag();
+  #stopper = new Stopper();
   /** Ends the watch over the worker. */
   #unwatch = () => {};
   /** The names of the modules whose code is there. */
@@ -29,11 +32,6 @@ export class Thread {
     this.#host = host;
     this.#receive = receive;
     this.#lose = lose;
-  }
-
-  /** Whether a call stops when it is told to, instead of with the worker only. */
-  get canAsk() {
-    return this.#flag !== null;
   }
 
   /** Whether another worker can take the place of this one. */
@@ -81,6 +79,7 @@ export class Thread {
       makes: makes.map((object) => object.recipe.message(object)),
       call: job.message(job.makes),
       isHeard: job.onProgress !== undefined,
+      address: this.canAsk ? this.#stopper.begin() : null,
     };
     // What is kept to make an object again is copied; all else moves.
     this.#port.postMessage(message, job.makes ? [] : job.buffers());
@@ -90,6 +89,7 @@ export class Thread {
   finish(made) {
     for (const { object, time } of made) this.objects.set(this.#making.get(object), time);
     this.#making.clear();
+    this.#stopper.end();
     this.job = null;
     if (!this.isOver) this.#hold(false);
   }
@@ -103,7 +103,7 @@ export class Thread {
 
   /** Tells the call that runs there to stop. */
   ask() {
-    if (this.#flag) Atomics.store(this.#flag, 0, this.job.number);
+    if (this.canAsk) this.#stopper.ask(this.job.number);
   }
 
   /** Ends the worker, or lets go of it if it is somebody else's. */
@@ -117,6 +117,7 @@ export class Thread {
 
   #letGo() {
     this.#unwatch();
+    this.#stopper.end();
     // A port that is closed at once does not deliver what was posted last.
     if (this.canEnd) this.#port?.close();
     else this.#port?.unref?.();
@@ -141,11 +142,14 @@ export class Thread {
       port1.onmessage = ({ data }) => {
         if (data.id !== 0) this.#receive(this, data);
         else if (data.error) reject(fromReport(data.error));
-        else resolve();
+        else {
+          this.canAsk = data.value.canHear;
+          resolve();
+        }
       };
       port1.unref?.();
       this.#hold(true);
-      worker.postMessage({ [GREETING]: { core: code }, port: port2, flag: this.#flag }, [port2]);
+      worker.postMessage({ [GREETING]: { core: code }, port: port2, ...this.#stopper.greeting() }, [port2]);
       this.#codes.add('core');
     });
   }
@@ -172,9 +176,4 @@ export class Thread {
   #hold(isHeld) {
     this.#host.hold(this.#worker, isHeld);
   }
-}
-
-/** Memory that both ends see, where pages may have it. */
-function sharedFlag() {
-  return typeof SharedArrayBuffer === 'function' ? new Int32Array(new SharedArrayBuffer(4)) : null;
 }
