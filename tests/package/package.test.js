@@ -1,9 +1,9 @@
 import { execFileSync, spawnSync } from 'node:child_process';
-import { readFileSync, readdirSync } from 'node:fs';
+import { cpSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
-import { modules } from '../../scripts/lib/modules.mjs';
+import { modules, others } from '../../scripts/lib/modules.mjs';
 import { npm } from '../../scripts/lib/run.mjs';
 import { openPage, serveFolder } from './browser.js';
 
@@ -44,6 +44,17 @@ const read = {
   code: 'UnknownColumn',
 };
 
+/** What remote.js finds, in a worker. */
+const away = {
+  vertices: 3600,
+  euler: 1,
+  stopped: 'AbortError',
+  code: 'IndexOutOfBounds',
+  formats: 6,
+  png: true,
+  closed: 'ConnectionClosed',
+};
+
 describe('the package', () => {
   it('holds what users need and nothing else', () => {
     expect(inject('packed')).toEqual([
@@ -75,17 +86,28 @@ describe('the package', () => {
       'dist/snapshot.d.ts',
       'dist/snapshot.js',
       'dist/wasm-base64.js',
+      'dist/worker-embedded-node.cjs',
+      'dist/worker-embedded.js',
+      'dist/worker-node.cjs',
+      'dist/worker-node.mjs',
+      'dist/worker-script-node.cjs',
+      'dist/worker-script.d.ts',
+      'dist/worker-script.js',
+      'dist/worker.d.cts',
+      'dist/worker.d.ts',
+      'dist/worker.js',
       'package.json',
     ]);
   });
 
   it('says of each module what the table of modules says', () => {
     const { exports } = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
+    const entries = Object.values({ ...modules, ...others });
     const files = { './*.wasm': './dist/*.wasm', './package.json': './package.json' };
-    expect(exports).toEqual(Object.assign({}, ...Object.values(modules).map((module) => module.exports), files));
+    expect(exports).toEqual(Object.assign({}, ...entries.map((entry) => entry.exports), files));
   });
 
-  it.each(Object.values(modules).map(({ entry }) => entry))(
+  it.each(Object.values({ ...modules, ...others }).map(({ entry }) => entry))(
     'gives the same names to import and require: %s',
     (entry) => {
       const script = `import(${JSON.stringify(entry)}).then((names) => console.log(JSON.stringify(
@@ -118,7 +140,16 @@ describe('the package', () => {
   });
 
   it('has no Node module, await at the top or eval in what browsers load', () => {
-    for (const name of ['index.js', 'core.js', 'error.js', 'files.js', 'inline.js', 'snapshot.js']) {
+    for (const name of [
+      'index.js',
+      'core.js',
+      'error.js',
+      'files.js',
+      'inline.js',
+      'snapshot.js',
+      'worker.js',
+      'worker-script.js',
+    ]) {
       const source = readFileSync(join(dist, name), 'utf8');
       expect(source).not.toMatch(/node:|require\(|^await |\beval\(|new Function/m);
     }
@@ -172,6 +203,10 @@ describe('Node', () => {
     });
   });
 
+  it('imports and requires what makes workers', () => {
+    expect(run('worker.mjs')).toEqual({ ...away, oneError: true, oneInstance: true });
+  });
+
   it('finds the wasm files and package.json under their own names', () => {
     const wasm = Object.values(modules).map(({ wasm }) => wasm);
     const names = [...wasm, 'package.json'];
@@ -199,6 +234,7 @@ describe('Chromium', () => {
     oneError: true,
     worker: expected,
     byteLength: readFileSync(join(dist, 'morse_smooth_bg.wasm')).length,
+    remote: away,
   };
   const app = join(installed, 'vite');
   const common = { root: app, configFile: false, logLevel: 'error' };
@@ -233,6 +269,40 @@ describe('Chromium', () => {
       expect(result).toEqual({ page: expected, file: read, picture: drawn });
     } finally {
       await server.close();
+    }
+  });
+
+  const strict = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self' blob:";
+  it.each([
+    ['with a strict content security policy', { 'content-security-policy': strict }, false],
+    [
+      'where memory is shared',
+      { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' },
+      true,
+    ],
+  ])('runs workers %s', async (_, headers, isolated) => {
+    const server = await serveFolder(installed, headers);
+    try {
+      const url = `${server.url}/static/worker.html?dist=/node_modules/morse-smooth/dist`;
+      expect(await resultOf(url)).toEqual({ ...away, isolated });
+    } finally {
+      await server.close();
+    }
+  });
+
+  it('runs workers where their script and the module are not found', async () => {
+    const moved = join(installed, 'moved');
+    cpSync(dist, moved, { recursive: true });
+    for (const name of ['worker-script.js', 'morse_smooth_bg.wasm']) rmSync(join(moved, name));
+    const server = await serveFolder(installed);
+    const { page, close } = await openPage(`${server.url}/static/worker.html?dist=/moved`);
+    try {
+      await page.waitForFunction(() => globalThis.result !== undefined);
+      expect(await page.evaluate(() => globalThis.result)).toEqual({ ...away, isolated: false });
+    } finally {
+      await close();
+      await server.close();
+      rmSync(moved, { recursive: true });
     }
   });
 });
