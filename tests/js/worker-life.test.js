@@ -223,6 +223,30 @@ describe.runIf(inNode)('in Node', () => {
     expect(execFileSync(process.execPath, ['--input-type=commonjs', '-e', required], options)).toBe('6\n');
   });
 
+  it('forgotten objects are freed', async () => {
+    const { execFileSync } = await import('node:child_process');
+    // Each mesh takes some megabytes of the worker's 64, so that few fit at once.
+    const script = `
+      import { readFileSync } from 'node:fs';
+      import { connect } from 'morse-smooth/worker';
+      import { square, random } from './tests/js/meshes.js';
+      import { withPages } from './tests/js/wasm-bytes.js';
+      const core = withPages(new Uint8Array(readFileSync('dist/morse_smooth_bg.wasm')), 1024);
+      const remote = await connect({ wasm: { core } });
+      const { positions, triangles } = square(60);
+      const values = Float64Array.from({ length: 61 * 61 }, random(2));
+      const collect = () => new Promise((resolve) => setTimeout(() => (gc(), setTimeout(resolve, 5)), 5));
+      for (let time = 0; time < 120; time++) {
+        const mesh = await remote.createMesh(positions, triangles);
+        await (await remote.createSmoother(mesh)).lowPass(values, { iterations: 1 });
+        if (time % 4 === 0) await collect();
+      }
+      console.log('120 meshes');`;
+    const options = { cwd: new URL('../..', import.meta.url), encoding: 'utf8', timeout: 50_000 };
+    const given = ['--expose-gc', '--input-type=module', '-e', script];
+    expect(execFileSync(process.execPath, given, options)).toBe('120 meshes\n');
+  });
+
   it('what is embedded serves where the files are not', async () => {
     const { copyFileSync, mkdtempSync, rmSync } = await import('node:fs');
     const { tmpdir } = await import('node:os');

@@ -30,10 +30,12 @@ export const connect = connectorOf({
     return () => {
       worker.off('exit', onExit);
       worker.off('error', onError);
-      // Whatever still goes wrong while it ends is nobody's.
-      worker.on('error', () => {});
     };
   },
   hold: (worker, isHeld) => (isHeld ? worker.ref() : worker.unref()),
-  end: (worker) => void worker.terminate(),
+  end(worker) {
+    // Whatever still goes wrong while it ends is nobody's.
+    worker.on('error', () => {});
+    worker.terminate();
+  },
 });

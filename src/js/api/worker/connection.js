@@ -1,9 +1,9 @@
 import { encode } from './encode.js';
-import { cancelled, closed, superseded } from './failures.js';
+import { cancelled, closed, notSent, superseded } from './failures.js';
 import { Job } from './job.js';
 import { RemoteObject, proxyOf, stateOf } from './objects.js';
 import { separate } from './options.js';
-import { fromReport } from './reports.js';
+import { fromReport, toReport } from './reports.js';
 import { callOf } from './table.js';
 import { Thread } from './thread.js';
 
@@ -63,12 +63,13 @@ export class Connection {
       if (state) needs.add(state);
       return state?.number;
     };
+    const encoded = encode(args, transfer === true, numberOf);
     const job = new Job({
       kind,
       object,
       name,
       call,
-      args: encode(args, transfer === true, numberOf),
+      args: encoded,
       needs: [...needs],
       makes: call.makes ? new RemoteObject(this, call.makes.kind) : null,
       // Without its own, a method calls back what its smoother was made with.
@@ -76,7 +77,7 @@ export class Connection {
       isLatest: latest === true,
     });
     if (job.makes) {
-      job.makes.recipe = recipeOf(job);
+      job.makes.recipe = job.recipe();
       job.makes.onProgress = kind !== null ? object.onProgress : call.isWatched ? onProgress : undefined;
     }
     if (job.isLatest) this.#supersede(job);
@@ -131,7 +132,12 @@ export class Connection {
   #run(job, thread) {
     this.#queue = this.#queue.filter((other) => other !== job);
     job.thread = thread;
-    thread.run(job, this.#codes.loaded([job.call.module]));
+    try {
+      thread.run(job, this.#codes.loaded([job.call.module]));
+    } catch (error) {
+      // There is no memory for a copy of the arguments.
+      this.#finish(thread, job, { made: [], error: toReport(notSent(error, job.buffers())) });
+    }
   }
 
   #add() {
@@ -256,12 +262,6 @@ export class Connection {
     this.#replace(thread);
     this.#pump();
   }
-}
-
-/** What makes an object again: the call, without what only this one time was for. */
-function recipeOf(job) {
-  const { needs } = job;
-  return { needs, message: (object) => job.message(object) };
 }
 
 function resultOf({ call, makes }, value) {

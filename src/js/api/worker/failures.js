@@ -10,6 +10,13 @@ export const lost = (reason) =>
 export const notStarted = (reason) =>
   new MorseSmoothError('LoadFailed', `the worker could not be started: ${reason}`, { reason });
 
+/** What is thrown where arguments are copied that are too large for that. */
+export function notSent(error, buffers) {
+  const bytes = buffers.reduce((sum, buffer) => sum + buffer.byteLength, 0);
+  const message = `the arguments could not be sent to the worker: ${error.message}`;
+  return new MorseSmoothError('OutOfMemory', message, { bytes }, { cause: error });
+}
+
 export const freed = (object) => new MorseSmoothError('UseAfterFree', `this ${object} was freed`, { object });
 
 /** What a call fails with that is stopped by what it calls back, as without a worker. */

@@ -28,17 +28,15 @@ export class Job {
     return object === this.object && name === this.name;
   }
 
-  /** What the worker is told. `made` is the object that is made, maybe again. */
-  message(made) {
-    const { kind, name, args } = this;
-    return {
-      kind,
-      target: this.object?.number ?? null,
-      name,
-      args,
-      makes: made?.number ?? null,
-      changes: made?.changes,
-    };
+  /** What the worker is told. */
+  message() {
+    return messageOf(this, this.makes);
+  }
+
+  /** What makes the object again. It does not hold the job, whose promise holds what stands for the object: that could not be forgotten. */
+  recipe() {
+    const { kind, object, name, args, needs } = this;
+    return { needs, message: (made) => messageOf({ kind, object, name, args }, made) };
   }
 
   buffers() {
@@ -70,4 +68,9 @@ export class Job {
     this.#signal?.removeEventListener('abort', this.#onAbort);
     return this.#settle;
   }
+}
+
+/** A call as it is posted; `made` is the object that it makes, maybe again. */
+function messageOf({ kind, object, name, args }, made) {
+  return { kind, target: object?.number ?? null, name, args, makes: made?.number ?? null, changes: made?.changes };
 }

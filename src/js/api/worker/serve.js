@@ -73,11 +73,17 @@ function serve({ port, [GREETING]: codes, ...greeting }) {
     const value = valueOf(call, kind === null ? names[call.module] : objects.get(target), name, given);
     const about = call.changes ? factsOf(kind, objects.get(target)) : null;
     if (makes === null) return { value, facts: about };
-    const { at } = call.makes;
+    const { kind: kindMade, at } = call.makes;
     const object = at === null ? value : value[at];
-    objects.set(makes, object);
     const rest = at === null ? null : Object.fromEntries(Object.entries(value).filter(([entry]) => entry !== at));
-    return { value: rest, facts: factsOf(call.makes.kind, object) };
+    try {
+      const facts = factsOf(kindMade, object);
+      objects.set(makes, object);
+      return { value: rest, facts };
+    } catch (error) {
+      object.free();
+      throw error;
+    }
   }
 
   function free(numbers) {

@@ -77,7 +77,7 @@ export class Thread {
       id: job.number,
       codes: this.#withoutKnown(codes),
       makes: makes.map((object) => object.recipe.message(object)),
-      call: job.message(job.makes),
+      call: job.message(),
       isHeard: job.onProgress !== undefined,
       address: this.canAsk ? this.#stopper.begin() : null,
     };
@@ -111,6 +111,7 @@ export class Thread {
     this.isOver = true;
     this.isReady = false;
     this.objects.clear();
+    if (this.job) this.ask();
     if (!this.canEnd) this.#port?.postMessage({ isClosed: true });
     this.#letGo();
   }
