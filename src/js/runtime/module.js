@@ -12,7 +12,9 @@ export class Module {
   #mark;
   #code = null;
   #instance = null;
-  #renewsItself = false;
+  /** Gives the code at once, for Node, where that may block. */
+  #compile = null;
+  #globals = globalThis;
 
   /** `entry` is the import that loads the module, `mark` a name that no other module exports. */
   constructor(createGlue, entry, mark) {
@@ -26,18 +28,20 @@ export class Module {
     return this.#code;
   }
 
+  get entry() {
+    return this.#entry;
+  }
+
   get isLost() {
     return this.#instance?.isLost ?? false;
   }
 
   /** The running instance. */
   get instance() {
-    if (this.#instance === null) {
-      throw new MorseSmoothError('NotInitialized', `call \`await init()\` of ${this.#entry} once before anything else`);
-    }
-    if (this.#instance.isLost) {
-      if (!this.#renewsItself) throw this.#instance.lostError();
-      this.startSync(this.#code);
+    if (this.#instance === null || this.#instance.isLost) {
+      if (this.#compile !== null) this.#startNow();
+      else if (this.#instance === null) throw this.#notInitialized();
+      else throw this.#instance.lostError();
     }
     return this.#instance;
   }
@@ -45,22 +49,30 @@ export class Module {
   /** Starts an instance of the compiled code. */
   async start(code) {
     this.#refuseForeign(code);
-    const glue = this.#createGlue();
-    await glue.default({ module_or_path: code });
-    this.#running(glue, code);
+    const glue = this.#createGlue(this.#globals);
+    this.#running(glue, await WebAssembly.instantiate(code, glue.imports()), code);
   }
 
-  /** Starts an instance at once, for Node, where that may block; and starts another one whenever one was lost. */
-  startSync(code) {
-    const glue = this.#createGlue();
-    glue.initSync({ module: code });
-    this.#running(glue, code);
-    this.#renewsItself = true;
+  /** Starts an instance whenever there is none, of what `compile` gives; `globals` has the classes for text. */
+  onDemand(compile, globals) {
+    this.#compile = compile;
+    this.#globals = globals;
   }
 
-  #running(glue, code) {
+  #startNow() {
+    const code = this.#code ?? this.#compile();
+    const glue = this.#createGlue(this.#globals);
+    this.#running(glue, new WebAssembly.Instance(code, glue.imports()), code);
+  }
+
+  #running(glue, instance, code) {
+    glue.run(instance, code);
     this.#code = code;
     this.#instance = new Instance(glue, this.#entry);
+  }
+
+  #notInitialized() {
+    return new MorseSmoothError('NotInitialized', `call \`await init()\` of ${this.#entry} once before anything else`);
   }
 
   #refuseForeign(code) {

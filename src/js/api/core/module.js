@@ -3,3 +3,4 @@ import { Module } from '../../runtime/module.js';
 
 /** The WebAssembly module of `morse-smooth`. */
 export const core = new Module(createGlue, 'morse-smooth', 'rawtrimesh_new');
+export default core;
