@@ -115,7 +115,6 @@ export function manifest() {
     alias: by((entry) => entry.default),
     exports: {
       ...exports,
-      './*.iife.js': './dist/*.iife.js',
       './*.wasm': './dist/*.wasm',
       './package.json': './package.json',
     },

@@ -5,5 +5,5 @@ import load from './api.js';
 export * from 'this:api';
 
 export function init(options) {
-  return load(options, () => ({ packed }));
+  return load(options, null, () => ({ packed }));
 }

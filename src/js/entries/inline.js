@@ -6,5 +6,5 @@ export * from 'this:shared';
 
 /** Takes the wasm module from the script itself: nothing is fetched. */
 export default function init(options) {
-  return load(options, () => ({ packed }));
+  return load(options, null, () => ({ packed }));
 }

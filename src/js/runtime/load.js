@@ -3,15 +3,15 @@ import { MorseSmoothError, invalidArgument, invalidOption } from './error.js';
 const SOURCES = 'a URL, string, Request, Response, BufferSource or WebAssembly.Module';
 
 /**
- * The `init` of a module's entries, `(options, embedded, address)`: loads it once, from `options.wasm`, or else from what `address`
- * returns, or else from what `embedded` imports. After a failure it can be called again, and so it can where the instance was lost;
+ * The `init` of a module's entries, `(options, address, embedded)`: loads it once, from `options.wasm`, or else from what `address`
+ * returns, or else from what `embedded` imports; either may be null. After a failure it can be called again, and so it can where the instance was lost;
  * the code is at hand then.
  */
 export function loaderOf(module) {
   let loading = null;
   let isDone = false;
   // Not an async function: later calls return the very same promise.
-  return (options, embedded, address) => {
+  return (options, address, embedded) => {
     let source;
     try {
       source = sourceOf(options) ?? module.code ?? undefined;
@@ -21,7 +21,7 @@ export function loaderOf(module) {
     if (isDone && module.isLost) loading = null;
     if (loading === null) {
       isDone = false;
-      const started = source === undefined ? startItself(module, embedded, address) : start(module, source);
+      const started = source === undefined ? startItself(module, address, embedded) : start(module, source);
       loading = started.then(
         () => {
           isDone = true;
@@ -50,12 +50,13 @@ export function sourceOf(options) {
 }
 
 /** Starts a module from its file or, where that cannot be had, from the copy in a script. */
-async function startItself(module, embedded, address) {
+async function startItself(module, address, embedded) {
   let failure = null;
   try {
     if (address) return await start(module, address());
   } catch (error) {
     failure = error instanceof MorseSmoothError ? error : loadFailed(module, {}, error);
+    if (!embedded) throw failure;
   }
   try {
     await start(module, await unpacked((await embedded()).packed));
