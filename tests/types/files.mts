@@ -66,3 +66,10 @@ writeMesh(file, { format: 'vtp' });
 writeMesh(new TriMesh(file.positions, file.triangles), { format: 'ply' });
 
 export { bytes, isOurs, ready };
+
+// -------------------------------------------------------------------------------------------------------------- bytes
+readMesh(new ArrayBuffer(3));
+readField(new DataView(new ArrayBuffer(3)));
+readTable(await new Blob([]).arrayBuffer());
+// @ts-expect-error which bytes, the numbers do not say
+readMesh(new Float64Array(3));

@@ -1,4 +1,5 @@
 import { MorseSmoothError } from './error.js';
+import { hintsOf } from './hints.js';
 import { Instance } from './instance.js';
 
 /**
@@ -10,17 +11,19 @@ export class Module {
   #createGlue;
   #entry;
   #mark;
+  #hint;
   #code = null;
   #instance = null;
   /** Gives the code at once, for Node, where that may block. */
   #compile = null;
   #globals = globalThis;
 
-  /** `entry` is the import that loads the module, `mark` a name that no other module exports. */
-  constructor(createGlue, entry, mark) {
+  /** `entry` is the import that loads the module, `mark` a name that no other module exports, `options` what its functions take. */
+  constructor(createGlue, entry, mark, options) {
     this.#createGlue = createGlue;
     this.#entry = entry;
     this.#mark = mark;
+    this.#hint = hintsOf(options);
   }
 
   /** The compiled code, once there is some. */
@@ -68,7 +71,7 @@ export class Module {
   #running(glue, instance, code) {
     glue.run(instance, code);
     this.#code = code;
-    this.#instance = new Instance(glue, this.#entry);
+    this.#instance = new Instance(glue, this.#entry, this.#hint);
   }
 
   #notInitialized() {

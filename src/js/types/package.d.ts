@@ -124,6 +124,16 @@ export class MorseSmoothError extends Error {
    * - `InternalError`: a bug of ours, always worth a report
    */
   readonly code: string;
-  /** The numbers and names in the message: `vertex`, `triangle`, `index`, `line`, `option`, `expected`, `bytes`, … */
+  /**
+   * The numbers and names in the message: `vertex`, `triangle`, `index`, `line`, `option`, `expected`, `bytes`, … Of an unknown option also
+   * what was `meant`, or which functions and options it `belongsTo`; of an array whose buffer was transferred that it is `detached`.
+   */
   readonly detail: Record<string, unknown>;
+  /**
+   * What is left of an error on its way to another thread or into a log. `postMessage(error)` and `structuredClone(error)` keep its message
+   * alone, as of every class of errors: send this, and make an error of it again by {@link MorseSmoothError.from}.
+   */
+  toJSON(): { name: string; code: string; message: string; detail: Record<string, unknown> };
+  /** The error that `toJSON` was called on. */
+  static from(json: { code: string; message: string; detail?: Record<string, unknown> }): MorseSmoothError;
 }
