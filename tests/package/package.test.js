@@ -1,10 +1,11 @@
 import { execFileSync, spawnSync } from 'node:child_process';
-import { cpSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
-import { modules, others } from '../../scripts/lib/modules.mjs';
+import { manifest, modules, others } from '../../scripts/lib/modules.mjs';
 import { npm } from '../../scripts/lib/run.mjs';
+import { namesOf } from './apps/names.js';
 import { openPage, serveFolder } from './browser.js';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -23,6 +24,9 @@ const expected = {
 
 const run = (...parameters) =>
   JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
+
+/** The size of a module's file. */
+const sizeOf = (key) => readFileSync(join(dist, modules[key].wasm)).length;
 
 /** What draw.js finds: the bytes of the picture, and so their sum, are the same everywhere. */
 const drawn = {
@@ -62,9 +66,13 @@ describe('the package', () => {
       'LICENSE-APACHE',
       'LICENSE-MIT',
       'README.md',
+      'dist/core-embedded.cjs',
+      'dist/core-embedded.js',
       'dist/core.js',
       'dist/error.cjs',
       'dist/error.js',
+      'dist/files-embedded.cjs',
+      'dist/files-embedded.js',
       'dist/files-node.cjs',
       'dist/files-node.mjs',
       'dist/files.d.cts',
@@ -73,24 +81,31 @@ describe('the package', () => {
       'dist/index.d.cts',
       'dist/index.d.ts',
       'dist/index.js',
+      'dist/inline.d.cts',
       'dist/inline.d.ts',
       'dist/inline.js',
+      'dist/morse-smooth-files.iife.js',
+      'dist/morse-smooth-snapshot.iife.js',
+      'dist/morse-smooth.iife.js',
       'dist/morse_smooth_bg.wasm',
       'dist/morse_smooth_files_bg.wasm',
       'dist/morse_smooth_snapshot_bg.wasm',
       'dist/node.cjs',
       'dist/node.mjs',
+      'dist/snapshot-embedded.cjs',
+      'dist/snapshot-embedded.js',
       'dist/snapshot-node.cjs',
       'dist/snapshot-node.mjs',
       'dist/snapshot.d.cts',
       'dist/snapshot.d.ts',
       'dist/snapshot.js',
-      'dist/wasm-base64.js',
-      'dist/worker-embedded-node.cjs',
       'dist/worker-embedded.js',
+      'dist/worker-node-embedded.cjs',
+      'dist/worker-node-embedded.js',
       'dist/worker-node.cjs',
       'dist/worker-node.mjs',
       'dist/worker-script-node.cjs',
+      'dist/worker-script.d.cts',
       'dist/worker-script.d.ts',
       'dist/worker-script.js',
       'dist/worker.d.cts',
@@ -101,17 +116,22 @@ describe('the package', () => {
   });
 
   it('says of each module what the table of modules says', () => {
-    const { exports } = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
-    const entries = Object.values({ ...modules, ...others });
-    const files = { './*.wasm': './dist/*.wasm', './package.json': './package.json' };
-    expect(exports).toEqual(Object.assign({}, ...entries.map((entry) => entry.exports), files));
+    const written = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
+    expect(written).toMatchObject(manifest());
+    expect(written.exports).toEqual(manifest().exports);
+  });
+
+  it('has every file that package.json names', () => {
+    const names = JSON.stringify(manifest()).match(/\.\/dist\/[^"]*/g);
+    for (const name of names.filter((name) => !name.includes('*')))
+      expect(existsSync(join(dist, '..', name)), name).toBe(true);
   });
 
   it.each(Object.values({ ...modules, ...others }).map(({ entry }) => entry))(
     'gives the same names to import and require: %s',
     (entry) => {
       const script = `import(${JSON.stringify(entry)}).then((names) => console.log(JSON.stringify(
-      [names, require(${JSON.stringify(entry)})].map((names) => Object.keys(names).sort()))))`;
+      [names, require(${JSON.stringify(entry)})].map(${namesOf}))))`;
       const [imported, required] = run('--input-type=commonjs', '-e', script);
       expect(imported).toEqual(required);
       expect(imported).toContain('MorseSmoothError');
@@ -181,12 +201,13 @@ describe('Node', () => {
     expect(run('files.mjs')).toEqual({ ...read, oneInstance: true, oneError: true });
   });
 
-  it('requires the files, and reads each module for its own entry only', () => {
+  it('requires the files, and compiles each module when it is used, for its own entry only', () => {
     expect(run('files.cjs')).toEqual({
       ...read,
       keys: ['MorseSmoothError', 'default', 'formats', 'readField', 'readMesh', 'readTable', 'writeMesh'],
-      alone: ['morse_smooth_files_bg.wasm'],
-      both: ['morse_smooth_files_bg.wasm', 'morse_smooth_bg.wasm'],
+      imported: [],
+      alone: [sizeOf('files')],
+      both: [sizeOf('files'), sizeOf('core')],
     });
   });
 
@@ -194,12 +215,13 @@ describe('Node', () => {
     expect(run('snapshot.mjs')).toEqual({ ...drawn, oneInstance: true, oneError: true });
   });
 
-  it('requires the pictures, and reads each module for its own entry only', () => {
+  it('requires the pictures, and compiles each module when it is used, for its own entry only', () => {
     expect(run('snapshot.cjs')).toEqual({
       ...drawn,
       keys: ['MorseSmoothError', 'Scene', 'default', 'sheet', 'snapshot'],
-      alone: ['morse_smooth_snapshot_bg.wasm'],
-      both: ['morse_smooth_snapshot_bg.wasm', 'morse_smooth_bg.wasm'],
+      imported: [],
+      alone: [sizeOf('snapshot')],
+      both: [sizeOf('snapshot'), sizeOf('core')],
     });
   });
 
@@ -290,10 +312,11 @@ describe('Chromium', () => {
     }
   });
 
-  it('runs workers where their script and the module are not found', async () => {
+  it('runs workers where their script and the modules are not found', async () => {
     const moved = join(installed, 'moved');
     cpSync(dist, moved, { recursive: true });
-    for (const name of ['worker-script.js', 'morse_smooth_bg.wasm']) rmSync(join(moved, name));
+    const missing = ['worker-script.js', ...Object.values(modules).map(({ wasm }) => wasm)];
+    for (const name of missing) rmSync(join(moved, name));
     const server = await serveFolder(installed);
     const { page, close } = await openPage(`${server.url}/static/worker.html?dist=/moved`);
     try {

@@ -21,7 +21,7 @@ await connect({ worker: 'worker.js' });
 await connect({ pool: 3 });
 
 const { positions, triangles, fields } = await remote.readMesh(new Uint8Array(), { format: 'ply', signal });
-same<typeof fields, Record<string, Float64Array>>(true);
+same<typeof fields, files.MeshFile['fields']>(true);
 const formats: files.FormatInfo[] = await remote.formats({ latest: true });
 await remote.readField(new Uint8Array(), { column: 2, transfer: true });
 const bytes: Uint8Array = await remote.writeMesh({ positions, triangles }, { format: 'ply', signal });
@@ -46,7 +46,8 @@ await mesh.simplify(heat, { threshold: 0.1, signal });
 const matrix: api.SparseMatrix = await mesh.laplacian({ weights: 'uniform', signal });
 const own: Float64Array = await mesh.positions({ signal });
 const part = await mesh.withoutMissing(heat, { signal });
-same<typeof part, { mesh: worker.RemoteTriMesh; vertices: Uint32Array }>(true);
+same<typeof part.mesh, worker.RemoteTriMesh>(true);
+same<typeof part.vertices, ReturnType<api.TriMesh['withoutMissing']>['vertices']>(true);
 // @ts-expect-error a promise has no counts
 mesh.criticalPoints(heat).counts;
 // @ts-expect-error no such option

@@ -1,26 +1,21 @@
-// The entry `morse-smooth/worker` for Node: `require` gets this bundled, `import` gets it through worker-node.mjs.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
+// The entry `morse-smooth/worker` for Node, bundled once for `import` and once for `require`. It needs no file: the worker's script and
+// the modules come out of scripts, whoever bundles this and wherever to.
 import { Worker } from 'node:worker_threads';
+import { packed as core } from 'embedded:core';
+import { packed as files } from 'embedded:files';
+import { packed as snapshot } from 'embedded:snapshot';
+import { script } from 'embedded:worker-node';
 import { connectorOf } from '../api/worker/connect.js';
+import { unpacked } from '../runtime/load-node.js';
 
 export { MorseSmoothError } from '../runtime/error.js';
 
-const read = (name) => readFileSync(join(__dirname, name));
-
 export const connect = connectorOf({
-  // Where a bundler has moved this script away from its files, what is embedded serves.
-  makers: [
-    () => new Worker(join(__dirname, 'worker-script-node.cjs')),
-    async () => new Worker((await import('./worker-embedded-node.cjs')).default, { eval: true }),
-  ],
+  makers: [() => new Worker(script, { eval: true })],
   sources: {
-    core: [
-      () => read('morse_smooth_bg.wasm'),
-      async () => Buffer.from((await import('./wasm-base64.js')).default, 'base64'),
-    ],
-    files: [() => read('morse_smooth_files_bg.wasm')],
-    snapshot: [() => read('morse_smooth_snapshot_bg.wasm')],
+    core: (target) => target.start(unpacked(core)),
+    files: (target) => target.start(unpacked(files)),
+    snapshot: (target) => target.start(unpacked(snapshot)),
   },
   watch(worker, onEnd) {
     const onError = (error) => onEnd(String(error?.message ?? error), true);

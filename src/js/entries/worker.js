@@ -1,32 +1,43 @@
 // The entry `morse-smooth/worker` for browsers.
 import { connectorOf } from '../api/worker/connect.js';
+import { loaderOf } from '../runtime/load.js';
 
 export { MorseSmoothError } from '../runtime/error.js';
 
-const bytesOf = (base64) => Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-
 let address = null;
-/** Where the script is that lies in a script. */
+/** Where the worker's script is that lies in a script. */
 async function embedded() {
-  const { default: text } = await import('./worker-embedded.js');
-  address ??= URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
+  const { script } = await import('embedded:worker');
+  address ??= URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   return address;
 }
 
+// Bundlers find the files by these very expressions. Where one does not, or the server has no such file, what is embedded does instead:
+// chunks of their own, which are loaded in that case only. What Vite builds has the files, and no second chunk, as in the other entries.
 export const connect = connectorOf({
-  // Bundlers find the files by these very expressions. Where one does not, or the server has no such file, the script comes from a
-  // chunk of its own, which is loaded in that case only.
   makers: [
     () => new Worker(new URL('./worker-script.js', import.meta.url), { type: 'module' }),
-    async () => new Worker(await embedded()),
+    ...(import.meta.env?.PROD ? [] : [async () => new Worker(await embedded())]),
   ],
   sources: {
-    core: [
-      () => new URL('./morse_smooth_bg.wasm', import.meta.url),
-      async () => bytesOf((await import('./wasm-base64.js')).default),
-    ],
-    files: [() => new URL('./morse_smooth_files_bg.wasm', import.meta.url)],
-    snapshot: [() => new URL('./morse_smooth_snapshot_bg.wasm', import.meta.url)],
+    core: (target) =>
+      loaderOf(target)(
+        undefined,
+        () => new URL('./morse_smooth_bg.wasm', import.meta.url),
+        import.meta.env?.PROD ? null : () => import('embedded:core'),
+      ),
+    files: (target) =>
+      loaderOf(target)(
+        undefined,
+        () => new URL('./morse_smooth_files_bg.wasm', import.meta.url),
+        import.meta.env?.PROD ? null : () => import('embedded:files'),
+      ),
+    snapshot: (target) =>
+      loaderOf(target)(
+        undefined,
+        () => new URL('./morse_smooth_snapshot_bg.wasm', import.meta.url),
+        import.meta.env?.PROD ? null : () => import('embedded:snapshot'),
+      ),
   },
   watch(worker, onEnd) {
     const onError = ({ message }) => onEnd(message || 'its script could not be loaded', false);

@@ -1,4 +1,3 @@
-import { MorseSmoothError } from '../../runtime/error.js';
 import { loaderOf } from '../../runtime/load.js';
 
 /** What each module exports and no other, as in the modules themselves. */
@@ -14,7 +13,7 @@ export class Codes {
   #codes = {};
   #loading = {};
 
-  /** `sources[name]()` says where a module's code is, unless it was `given`. */
+  /** `sources[name](target)` loads a module's code into the target, unless it was `given`. */
   constructor(sources, given) {
     this.#sources = sources;
     this.#given = given;
@@ -38,37 +37,29 @@ export class Codes {
     const given = this.#given[name];
     const isOwn = given === undefined || given === null;
     if (isOwn && own[name]) return (this.#codes[name] = own[name]);
-    let failure;
-    for (const source of isOwn ? this.#sources[name] : [() => given]) {
-      try {
-        this.#codes[name] = await codeFrom(await source(), MARKS[name]);
-        if (isOwn) own[name] = this.#codes[name];
-        return this.#codes[name];
-      } catch (error) {
-        failure ??= error;
-      }
-    }
-    if (failure.name === 'MorseSmoothError') throw failure;
-    throw new MorseSmoothError(
-      'LoadFailed',
-      `the WebAssembly module could not be loaded: ${failure.message}`,
-      {},
-      { cause: failure },
-    );
+    const target = new Target(name);
+    if (isOwn) await this.#sources[name](target);
+    else await loaderOf(target)({ wasm: given });
+    this.#codes[name] = target.code;
+    if (isOwn) own[name] = target.code;
+    return target.code;
   }
 }
 
-/** Loads code as the modules do, without starting it here. */
-async function codeFrom(source, mark) {
-  const module = {
-    code: null,
-    isLost: false,
-    start(code) {
-      const isRight = WebAssembly.Module.exports(code).some(({ name }) => name === mark);
-      if (!isRight) throw new Error('it is another module');
-      this.code = code;
-    },
-  };
-  await loaderOf(module)(() => source, { wasm: source });
-  return module.code;
+/** What takes a module's code in its place, for it is not started here. */
+class Target {
+  code = null;
+  isLost = false;
+  #mark;
+
+  constructor(name) {
+    this.entry = name === 'core' ? 'morse-smooth' : `morse-smooth/${name}`;
+    this.#mark = MARKS[name];
+  }
+
+  start(code) {
+    const isRight = WebAssembly.Module.exports(code).some(({ name }) => name === this.#mark);
+    if (!isRight) throw new Error(`it is not the module of ${this.entry}`);
+    this.code = code;
+  }
 }

@@ -100,9 +100,13 @@ function serve({ port, [GREETING]: codes, ...greeting }) {
   }
 }
 
-/** Starts modules from their compiled code: at once, which a worker may. */
+/** Starts modules from their compiled code, and again after they were lost: at once, which a worker may. */
 function start(codes) {
-  for (const [name, code] of Object.entries(codes)) if (modules[name].code === null) modules[name].startSync(code);
+  for (const [name, code] of Object.entries(codes)) {
+    if (modules[name].code !== null) continue;
+    modules[name].onDemand(() => code, globalThis);
+    void modules[name].instance;
+  }
 }
 
 function valueOf({ isConstructor, isProperty, makes, module }, receiver, name, args) {

@@ -1,4 +1,0 @@
-// One module for `import` and `require`.
-import api from './worker-node.cjs';
-
-export const { MorseSmoothError, connect } = api;
