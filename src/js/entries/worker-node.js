@@ -11,7 +11,8 @@ import { unpacked } from '../runtime/load-node.js';
 export { MorseSmoothError } from '../runtime/error.js';
 
 export const connect = connectorOf({
-  makers: [() => new Worker(script, { eval: true })],
+  // Without the flags of the program, one of which may say that scripts are modules.
+  makers: [() => new Worker(script, { eval: true, execArgv: [] })],
   sources: {
     core: (target) => target.start(unpacked(core)),
     files: (target) => target.start(unpacked(files)),
