@@ -13,8 +13,11 @@ const typed = ({ positions, triangles }) => ({
   positions: Float64Array.from(positions),
   triangles: Uint32Array.from(triangles),
 });
-const shape = typed(square(316));
-const values = Float64Array.from({ length: 317 * 317 }, random(5));
+const shape = typed(square(150));
+const values = Float64Array.from({ length: 151 * 151 }, random(5));
+/** 100,000 vertices. */
+const wide = typed(square(316));
+const wideValues = Float64Array.from({ length: 317 * 317 }, random(5));
 
 const Shared = globalThis.SharedArrayBuffer;
 const ways = [];
@@ -100,8 +103,6 @@ describe.each(ways)('%s', (_, buffer) => {
     expect(topology.eulerCharacteristic).toBe(1);
     // Other tests run meanwhile; on its own it is as quick as the abort.
     expect(untilFree).toBeLessThan(50 * AT_ONCE);
-    const times = [time, untilFree, points.time].map((time) => time.toFixed(0));
-    console.log(`aborted after ${times[0]} ms, another call's answer after ${times[1]}, one on the mesh ${times[2]}`);
     expect(same(points.value, new TriMesh(positions, triangles).criticalPoints(field))).toBe(true);
     large.free();
     tiny.free();
@@ -143,11 +144,11 @@ describe.each(ways)('%s', (_, buffer) => {
 
   it('aborted again and again, works on', async () => {
     const next = random(9);
-    for (let time = 0; time < 12; time++) {
+    for (let time = 0; time < 8; time++) {
       const controller = new AbortController();
       const { signal } = controller;
       const call = time % 2 ? mesh.morseComplex(values, { signal }) : smoother.tikhonov(values, { epsilon: 1 + time, signal }); // prettier-ignore
-      await pause(150 * next());
+      await pause(80 * next());
       controller.abort();
       const { reason, time: waited } = await settled(call);
       if (reason) expect(reason).toBe(signal.reason);
@@ -159,7 +160,9 @@ describe.each(ways)('%s', (_, buffer) => {
   });
 
   it('a slider shows the last value at once', async () => {
-    const family = await smoother.family(values, { tolerance: 0.1, epsilonRange: [0.1, 1], factorizations: 2 });
+    const mesh = await remote.createMesh(wide.positions, wide.triangles);
+    const smoother = await remote.createSmoother(mesh);
+    const family = await smoother.family(wideValues, { tolerance: 0.1, epsilonRange: [0.1, 1], factorizations: 1 });
     const shown = [];
     const epsilons = Array.from({ length: 60 }, (_, k) => 0.1 + 0.015 * k);
     const all = [];
@@ -171,34 +174,32 @@ describe.each(ways)('%s', (_, buffer) => {
     }
     const outcomes = await Promise.all(all);
     const time = performance.now() - start;
-    console.log(`family: ${shown.length} of 60 shown, the last one ${time.toFixed(0)} ms after its event`);
     expect(shown.at(-1)).toBe(epsilons.at(-1));
     expect(time).toBeLessThan(250);
-    expect(shown.length).toBeGreaterThan(10);
+    // It does not stand still while it moves, either.
+    expect(shown.length).toBeGreaterThan(5);
     for (const { reason } of outcomes) if (reason) expect(reason.name).toBe('AbortError');
-    family.free();
+    for (const object of [family, smoother, mesh]) object.free();
   });
 
   it('a slider of slow calls ends with the last value and computes few others', async () => {
+    const mesh = await remote.createMesh(wide.positions, wide.triangles);
+    const smoother = await remote.createSmoother(mesh);
+    const local = new Smoother(new TriMesh(wide.positions, wide.triangles));
     const ended = [];
     const all = [];
     const epsilons = Array.from({ length: 60 }, (_, k) => 0.2 + 0.01 * k);
     for (const epsilon of epsilons) {
-      const call = smoother.tikhonov(values, { epsilon, latest: true });
+      const call = smoother.tikhonov(wideValues, { epsilon, latest: true });
       all.push(outcomeOf(call.then((found) => ended.push([epsilon, found]))));
       await pause(1000 / 60);
     }
-    const start = performance.now();
     await Promise.all(all);
-    const time = performance.now() - start;
-    const alone = performance.now();
-    const epsilon = epsilons.at(-1);
-    const expected = local.smoother.tikhonov(values, { epsilon });
-    const without = performance.now() - alone;
-    console.log(`Tikhonov: the last one ${time.toFixed(0)} ms after, ${without.toFixed(0)} ms without a worker`);
+    const expected = local.tikhonov(wideValues, { epsilon: epsilons.at(-1) });
     expect(ended.length).toBeLessThan(4);
-    expect(ended.at(-1)[0]).toBe(epsilon);
+    expect(ended.at(-1)[0]).toBe(epsilons.at(-1));
     expect(same(ended.at(-1)[1], expected)).toBe(true);
+    for (const object of [smoother, mesh]) object.free();
   });
 
   it('`latest` takes the place of its like alone', async () => {

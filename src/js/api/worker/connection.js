@@ -231,8 +231,9 @@ export class Connection {
     this.close(error);
   }
 
+  /** Lets a call take the place of its like. One that runs and cannot be asked to stop may as well give its answer. */
   #supersede(job) {
-    const running = [...this.#threads].flatMap(({ job }) => job ?? []);
+    const running = [...this.#threads].flatMap(({ job }) => (job?.call.isWatched ? job : []));
     for (const other of [...this.#queue, ...running]) {
       if (other.isLatest && !other.isSettled && other.isLike(job)) {
         // To end the worker is no gain where that takes longer than what is left of the call.
