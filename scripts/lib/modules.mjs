@@ -24,7 +24,7 @@ const TABLE = {
     shared: 'core.js',
     global: 'MorseSmooth',
     types: { index: ['package', 'mesh', 'field', 'smoothing', 'prescribe', 'family'], inline: ['inline'] },
-    exports: { '.': exported('index', 'node'), './inline': exported('inline') },
+    exports: { '.': exported('index', 'node'), './inline': exported('inline', 'node', false) },
     // 36 kB for the sparse solver, 36 kB for families of all ε and the choice of one, 32 kB for persistence, Morse complex and the like,
     // 32 kB for prescribed extrema, 29 kB for constraints, filters and the intrinsic Delaunay Laplacian, 27 kB for missing values,
     // stopping, memory that is made sure of, welding with a tolerance and extrema that cannot be avoided, 88 kB for all else.
@@ -92,18 +92,18 @@ function bundled(browser, node, classic) {
 }
 
 /**
- * What package.json says of an entry with these files for browsers and, perhaps, for Node.
+ * What package.json says of an entry with these files for browsers and for Node, where `import` may get the former all the same.
  *
  * Node takes the same file for `import` and for `require`, so that there is one instance, where it knows `module-sync` (20.19 and
  * newer). Bundlers for browsers know `module`; what requires without it is a test environment such as Jest's, which runs in Node.
  */
-function exported(browser, node) {
+function exported(browser, node, isForNode = true) {
   const types = { esm: `./dist/${browser}.d.ts`, cjs: `./dist/${browser}.d.cts` };
   const esm = { types: types.esm, default: `./dist/${browser}.js` };
-  if (!node) return esm;
-  const nodeEsm = { types: types.esm, default: `./dist/${node}.mjs` };
   const cjs = { types: types.cjs, default: `./dist/${node}.cjs` };
-  return { node: { 'module-sync': nodeEsm, import: nodeEsm, require: cjs }, module: esm, require: cjs, ...esm };
+  const nodeEsm = { types: types.esm, default: `./dist/${node}.mjs` };
+  const forNode = isForNode ? { node: { 'module-sync': nodeEsm, import: nodeEsm, require: cjs } } : {};
+  return { ...forNode, module: esm, require: cjs, ...esm };
 }
 
 /** The table, with the name of each module's file in dist/ (`wasm`) and where wasm-pack leaves it (`built`). */

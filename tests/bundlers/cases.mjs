@@ -26,7 +26,44 @@ const nodeOnly = (version) => ({
   ],
 });
 
+const typescript = (version, resolutions) => ({
+  name: `TypeScript ${version}`,
+  packages: [`typescript@${version}`],
+  files: files.types,
+  runs: resolutions.map(([resolution, module, lib]) => ({
+    name: `${resolution}, lib ${lib}`,
+    check: ['tsc', '--noEmit', '--strict', '--target', 'es2022', '--skipLibCheck', 'false', 'app.ts'].concat(
+      '--moduleResolution',
+      resolution,
+      '--module',
+      module,
+      '--lib',
+      lib,
+    ),
+  })),
+});
+/** With the types of browsers and without any. */
+const RESOLUTIONS = [
+  ['nodenext', 'nodenext', 'es2022'],
+  ['bundler', 'esnext', 'es2022,dom'],
+];
+
 export const cases = [
+  {
+    name: 'publint',
+    packages: ['publint'],
+    files: {},
+    runs: [{ name: 'strict', check: ['publint', 'run', '$TARBALL', '--strict'] }],
+  },
+  {
+    name: 'attw',
+    packages: ['@arethetypeswrong/cli'],
+    files: {},
+    runs: [{ name: 'all resolutions', check: ['attw', '$TARBALL'] }],
+  },
+  typescript('5.2', [...RESOLUTIONS, ['node10', 'esnext', 'es2022']]),
+  typescript('5.9', [...RESOLUTIONS, ['node10', 'esnext', 'es2022']]),
+  typescript('7', RESOLUTIONS),
   vite(5),
   vite(6),
   vite(7),

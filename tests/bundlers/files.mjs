@@ -178,4 +178,30 @@ it('runs', async () => {
 `,
 };
 
-export const files = { html, node, script, page, next, svelte, astro, jest, vitest };
+const types = {
+  'app.ts': `import init, { TriMesh, smooth } from 'morse-smooth';
+import initInline from 'morse-smooth/inline';
+import initFiles, { readMesh } from 'morse-smooth/files';
+import { snapshot } from 'morse-smooth/snapshot';
+
+export async function app(bytes: ArrayBuffer): Promise<Uint8Array> {
+  await Promise.all([init({ wasm: new Uint8Array(8) }), initInline(), initFiles()]);
+  const { positions, triangles, fields } = readMesh(bytes);
+  const mesh = new TriMesh(positions, triangles);
+  return snapshot(positions, triangles, smooth(mesh, fields['heat'] ?? []).values);
+}
+`,
+};
+
+export const files = {
+  types,
+  html,
+  node,
+  script,
+  page,
+  next,
+  svelte,
+  astro,
+  jest,
+  vitest,
+};

@@ -26,9 +26,13 @@ export async function openPage(url) {
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' };
 
-/** A static server for a folder, which knows few MIME types: `{ url, close }`. */
-export async function serveFolder(folder, headers = {}) {
+/**
+ * A static server for a folder, which knows few MIME types: `{ url, close }`. What `answer(request, response)` says that it has answered
+ * is left to it.
+ */
+export async function serveFolder(folder, headers = {}, answer = () => false) {
   const server = createServer((request, response) => {
+    if (answer(request, response)) return;
     const { pathname } = new URL(request.url, 'http://localhost');
     const path = join(folder, normalize(pathname.endsWith('/') ? `${pathname}index.html` : pathname));
     if (!existsSync(path) || !statSync(path).isFile()) {

@@ -263,7 +263,7 @@ describe('Chromium', () => {
 
   it('runs what Vite has built, a worker included', async () => {
     const { build, preview } = await import('vite');
-    await build({ ...common, worker: { format: 'es' }, build: { outDir: 'built' } });
+    await build({ ...common, build: { outDir: 'built' } });
     const server = await preview({ ...common, build: { outDir: 'built' }, preview: { port: 0 } });
     try {
       expect(await resultOf(server.resolvedUrls.local[0])).toEqual(throughVite);
