@@ -4,7 +4,7 @@ import init, { TriMesh } from 'morse-smooth';
 import initFiles, { readMesh } from 'morse-smooth/files';
 
 const [file = 'www/public/examples/torus_irregular.ply', name = 'clean'] = process.argv.slice(2);
-await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node does so by itself
 const { positions, triangles, fields, warnings } = readMesh(readFileSync(file));
 const mesh = new TriMesh(positions, triangles);
 for (const { message } of [...warnings, ...mesh.warnings]) console.log(`warning: ${message}`);

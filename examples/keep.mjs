@@ -4,7 +4,7 @@ import init, { Smoother, TriMesh } from 'morse-smooth';
 import initFiles, { readMesh, writeMesh } from 'morse-smooth/files';
 
 const [output = 'kept.ply'] = process.argv.slice(2);
-await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node does so by itself
 const file = readMesh(readFileSync('www/public/examples/lysozyme_potential.ply'));
 const mesh = new TriMesh(file.positions, file.triangles);
 const [name, field] = Object.entries(file.fields)[0];

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import init, { TriMesh, smooth } from 'morse-smooth';
 import initFiles, { readMesh } from 'morse-smooth/files';
 
-await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node has done so on import
+await Promise.all([init(), initFiles()]); // loads the WebAssembly modules in a browser; Node does so by itself
 const { positions, triangles, fields } = readMesh(readFileSync('www/public/examples/torus_irregular.ply'));
 const mesh = new TriMesh(positions, triangles);
 const { values, report } = smooth(mesh, fields.noisy, { epsilon: 0.05 });

@@ -29,7 +29,7 @@ export const lints = [
 ];
 
 /** Projects of the TypeScript compiler; they need the built package. */
-export const typeChecks = ['tests/types', 'www']
+export const typeChecks = ['tests/types', 'tests/types/bare', 'www']
   .filter((folder) => existsSync(inRoot(folder, 'tsconfig.json')))
   .map((folder) => ({ name: `tsc, ${folder}`, command: node, parameters: [tsc, '--project', inRoot(folder)] }));
 

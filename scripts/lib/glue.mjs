@@ -9,9 +9,15 @@ import { pkg } from './paths.mjs';
 const GLUE = /^glue:(\w+)$/;
 const MARK = '?factory';
 
+/** Functions of the glue that `src/js/runtime/module.js` calls. */
+const CALLED = { imports: '__wbg_get_imports', run: '__wbg_finalize_init' };
+/** What loads the module, which `src/js/runtime/` does itself, and so what would fetch a file. */
+const LEFT_OUT = ['initSync', '__wbg_init', '__wbg_init_once', '__wbg_init_promise', '__wbg_load'];
+
 /**
  * A plugin for rolldown. The glue is a script with one instance in its variables; this makes it the body of a function `createGlue`,
- * each call of which returns the script's exports with an instance of their own, and `abandon`.
+ * each call of which returns the script's exports with an instance of their own: `imports()` for it, `run(instance, code)` once it is
+ * made, and `abandon`. It takes the classes for text: where there are none the script would fail, and it must not when it is imported.
  */
 export const glueFactory = {
   name: 'glue-factory',
@@ -30,29 +36,27 @@ export const glueFactory = {
 
 /** Turns the text of a script with these statements into that of a module which exports `createGlue`. */
 function factory(code, statements) {
-  const exported = [];
+  const exported = Object.entries(CALLED).map(([name, local]) => `${name}: ${local}`);
+  const names = statements.flatMap(({ id, declarations }) => [id, ...(declarations ?? []).map(({ id }) => id)]);
+  const declared = names.filter(Boolean).map(({ name }) => name);
+  const missing = ['wasm', ...Object.values(CALLED)].find((name) => !declared.includes(name));
+  if (missing) throw unexpected(`has no \`${missing}\``);
   let body = '';
   let end = 0;
-  const variables = [];
   for (const node of statements) {
     if (node.type === 'ImportDeclaration') throw unexpected('imports something');
-    if (node.type === 'VariableDeclaration') variables.push(...node.declarations.map(({ id }) => id.name));
-    if (node.type !== 'ExportNamedDeclaration') continue;
-    const { declaration, specifiers } = node;
-    body += code.slice(end, node.start);
-    if (declaration) {
-      exported.push(declaration.id.name);
-      end = declaration.start;
-    } else {
-      exported.push(...specifiers.map(({ local, exported }) => `${exported.name}: ${local.name}`));
-      end = node.end;
-    }
+    const { declaration, start } = node;
+    const name = (node.id ?? declaration?.id ?? node.declarations?.[0].id)?.name;
+    const isLeftOut = LEFT_OUT.includes(name);
+    if (node.type !== 'ExportNamedDeclaration' && !isLeftOut) continue;
+    body += code.slice(end, start);
+    end = declaration && !isLeftOut ? declaration.start : node.end;
+    if (declaration && !isLeftOut) exported.push(name);
   }
   body += code.slice(end);
-  if (!variables.includes('wasm')) throw unexpected('has no variable `wasm`');
   // What was cached of the instance's memory would keep it.
-  const caches = variables.filter((name) => name.startsWith('cached') && /Memory\d*$/.test(name));
-  return `export function createGlue() {
+  const caches = declared.filter((name) => name.startsWith('cached') && /Memory\d*$/.test(name));
+  return `export function createGlue({ TextDecoder, TextEncoder }) {
 ${body}
 /** Lets go of an instance that is no longer to be trusted: objects that are collected later free nothing. */
 function abandon() {

@@ -207,7 +207,7 @@ describe('refused', () => {
       expectError(() => method([1e308, -1e308, 0, 0]), 'RangeOverflow');
       const transferred = new Float64Array(4);
       structuredClone(transferred.buffer, { transfer: [transferred.buffer] });
-      expectError(() => method(transferred), 'LengthMismatch', { actual: 0 });
+      expectError(() => method(transferred), 'InvalidArgument', { argument: 'values', detached: true });
     }
   });
 

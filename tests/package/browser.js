@@ -5,28 +5,34 @@ import { extname, join, normalize } from 'node:path';
 import { chromium } from 'playwright-core';
 
 /**
- * Opens a page in a browser of its own: `{ page, problems, close }`. `problems` collects what goes wrong in the page: exceptions,
- * errors in the console, failed requests.
+ * Opens a page in a browser of its own: `{ page, problems, messages, close }`. `problems` collects what goes wrong in the page:
+ * exceptions, errors in the console, failed requests; `messages` all that the console says.
  */
 export async function openPage(url) {
   const browser = await chromium.launch({ executablePath: process.env.CHROME_PATH, args: ['--no-sandbox'] });
   const page = await browser.newPage();
   const problems = [];
+  const messages = [];
   page.on('pageerror', (error) => problems.push(String(error)));
+  page.on('console', (message) => messages.push(message.text()));
   page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
   page.on(
     'response',
     (response) => response.status() >= 400 && problems.push(`${response.status()} ${response.url()}`),
   );
   await page.goto(url);
-  return { page, problems, close: () => browser.close() };
+  return { page, problems, messages, close: () => browser.close() };
 }
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' };
 
-/** A static server for a folder, which knows few MIME types: `{ url, close }`. */
-export async function serveFolder(folder, headers = {}) {
+/**
+ * A static server for a folder, which knows few MIME types: `{ url, close }`. What `answer(request, response)` says that it has answered
+ * is left to it.
+ */
+export async function serveFolder(folder, headers = {}, answer = () => false) {
   const server = createServer((request, response) => {
+    if (answer(request, response)) return;
     const { pathname } = new URL(request.url, 'http://localhost');
     const path = join(folder, normalize(pathname.endsWith('/') ? `${pathname}index.html` : pathname));
     if (!existsSync(path) || !statSync(path).isFile()) {

@@ -1,10 +1,11 @@
 import { execFileSync, spawnSync } from 'node:child_process';
-import { readFileSync, readdirSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
-import { modules } from '../../scripts/lib/modules.mjs';
+import { manifest, modules, others } from '../../scripts/lib/modules.mjs';
 import { npm } from '../../scripts/lib/run.mjs';
+import { namesOf } from './apps/names.js';
 import { openPage, serveFolder } from './browser.js';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -23,6 +24,9 @@ const expected = {
 
 const run = (...parameters) =>
   JSON.parse(execFileSync(process.execPath, parameters, { cwd: installed, encoding: 'utf8' }));
+
+/** The size of a module's file. */
+const sizeOf = (key) => readFileSync(join(dist, modules[key].wasm)).length;
 
 /** What draw.js finds: the bytes of the picture, and so their sum, are the same everywhere. */
 const drawn = {
@@ -44,6 +48,17 @@ const read = {
   code: 'UnknownColumn',
 };
 
+/** What remote.js finds, in a worker. */
+const away = {
+  vertices: 3600,
+  euler: 1,
+  stopped: 'AbortError',
+  code: 'IndexOutOfBounds',
+  formats: 6,
+  png: true,
+  closed: 'ConnectionClosed',
+};
+
 describe('the package', () => {
   it('holds what users need and nothing else', () => {
     expect(inject('packed')).toEqual([
@@ -51,9 +66,13 @@ describe('the package', () => {
       'LICENSE-APACHE',
       'LICENSE-MIT',
       'README.md',
+      'dist/core-embedded.cjs',
+      'dist/core-embedded.js',
       'dist/core.js',
       'dist/error.cjs',
       'dist/error.js',
+      'dist/files-embedded.cjs',
+      'dist/files-embedded.js',
       'dist/files-node.cjs',
       'dist/files-node.mjs',
       'dist/files.d.cts',
@@ -62,34 +81,57 @@ describe('the package', () => {
       'dist/index.d.cts',
       'dist/index.d.ts',
       'dist/index.js',
+      'dist/inline.d.cts',
       'dist/inline.d.ts',
       'dist/inline.js',
+      'dist/morse-smooth-files.iife.js',
+      'dist/morse-smooth-snapshot.iife.js',
+      'dist/morse-smooth.iife.js',
       'dist/morse_smooth_bg.wasm',
       'dist/morse_smooth_files_bg.wasm',
       'dist/morse_smooth_snapshot_bg.wasm',
       'dist/node.cjs',
       'dist/node.mjs',
+      'dist/snapshot-embedded.cjs',
+      'dist/snapshot-embedded.js',
       'dist/snapshot-node.cjs',
       'dist/snapshot-node.mjs',
       'dist/snapshot.d.cts',
       'dist/snapshot.d.ts',
       'dist/snapshot.js',
-      'dist/wasm-base64.js',
+      'dist/worker-embedded.js',
+      'dist/worker-node-embedded.cjs',
+      'dist/worker-node-embedded.js',
+      'dist/worker-node.cjs',
+      'dist/worker-node.mjs',
+      'dist/worker-script-node.cjs',
+      'dist/worker-script.d.cts',
+      'dist/worker-script.d.ts',
+      'dist/worker-script.js',
+      'dist/worker.d.cts',
+      'dist/worker.d.ts',
+      'dist/worker.js',
       'package.json',
     ]);
   });
 
   it('says of each module what the table of modules says', () => {
-    const { exports } = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
-    const files = { './*.wasm': './dist/*.wasm', './package.json': './package.json' };
-    expect(exports).toEqual(Object.assign({}, ...Object.values(modules).map((module) => module.exports), files));
+    const written = JSON.parse(readFileSync(join(dist, '..', 'package.json'), 'utf8'));
+    expect(written).toMatchObject(manifest());
+    expect(written.exports).toEqual(manifest().exports);
   });
 
-  it.each(Object.values(modules).map(({ entry }) => entry))(
+  it('has every file that package.json names', () => {
+    const names = JSON.stringify(manifest()).match(/\.\/dist\/[^"]*/g);
+    for (const name of names.filter((name) => !name.includes('*')))
+      expect(existsSync(join(dist, '..', name)), name).toBe(true);
+  });
+
+  it.each(Object.values({ ...modules, ...others }).map(({ entry }) => entry))(
     'gives the same names to import and require: %s',
     (entry) => {
       const script = `import(${JSON.stringify(entry)}).then((names) => console.log(JSON.stringify(
-      [names, require(${JSON.stringify(entry)})].map((names) => Object.keys(names).sort()))))`;
+      [names, require(${JSON.stringify(entry)})].map(${namesOf}))))`;
       const [imported, required] = run('--input-type=commonjs', '-e', script);
       expect(imported).toEqual(required);
       expect(imported).toContain('MorseSmoothError');
@@ -118,7 +160,16 @@ describe('the package', () => {
   });
 
   it('has no Node module, await at the top or eval in what browsers load', () => {
-    for (const name of ['index.js', 'core.js', 'error.js', 'files.js', 'inline.js', 'snapshot.js']) {
+    for (const name of [
+      'index.js',
+      'core.js',
+      'error.js',
+      'files.js',
+      'inline.js',
+      'snapshot.js',
+      'worker.js',
+      'worker-script.js',
+    ]) {
       const source = readFileSync(join(dist, name), 'utf8');
       expect(source).not.toMatch(/node:|require\(|^await |\beval\(|new Function/m);
     }
@@ -150,12 +201,13 @@ describe('Node', () => {
     expect(run('files.mjs')).toEqual({ ...read, oneInstance: true, oneError: true });
   });
 
-  it('requires the files, and reads each module for its own entry only', () => {
+  it('requires the files, and compiles each module when it is used, for its own entry only', () => {
     expect(run('files.cjs')).toEqual({
       ...read,
       keys: ['MorseSmoothError', 'default', 'formats', 'readField', 'readMesh', 'readTable', 'writeMesh'],
-      alone: ['morse_smooth_files_bg.wasm'],
-      both: ['morse_smooth_files_bg.wasm', 'morse_smooth_bg.wasm'],
+      imported: [],
+      alone: [sizeOf('files')],
+      both: [sizeOf('files'), sizeOf('core')],
     });
   });
 
@@ -163,13 +215,18 @@ describe('Node', () => {
     expect(run('snapshot.mjs')).toEqual({ ...drawn, oneInstance: true, oneError: true });
   });
 
-  it('requires the pictures, and reads each module for its own entry only', () => {
+  it('requires the pictures, and compiles each module when it is used, for its own entry only', () => {
     expect(run('snapshot.cjs')).toEqual({
       ...drawn,
       keys: ['MorseSmoothError', 'Scene', 'default', 'sheet', 'snapshot'],
-      alone: ['morse_smooth_snapshot_bg.wasm'],
-      both: ['morse_smooth_snapshot_bg.wasm', 'morse_smooth_bg.wasm'],
+      imported: [],
+      alone: [sizeOf('snapshot')],
+      both: [sizeOf('snapshot'), sizeOf('core')],
     });
+  });
+
+  it('imports and requires what makes workers', () => {
+    expect(run('worker.mjs')).toEqual({ ...away, oneError: true, oneInstance: true });
   });
 
   it('finds the wasm files and package.json under their own names', () => {
@@ -199,13 +256,14 @@ describe('Chromium', () => {
     oneError: true,
     worker: expected,
     byteLength: readFileSync(join(dist, 'morse_smooth_bg.wasm')).length,
+    remote: away,
   };
   const app = join(installed, 'vite');
   const common = { root: app, configFile: false, logLevel: 'error' };
 
   it('runs what Vite has built, a worker included', async () => {
     const { build, preview } = await import('vite');
-    await build({ ...common, worker: { format: 'es' }, build: { outDir: 'built' } });
+    await build({ ...common, build: { outDir: 'built' } });
     const server = await preview({ ...common, build: { outDir: 'built' }, preview: { port: 0 } });
     try {
       expect(await resultOf(server.resolvedUrls.local[0])).toEqual(throughVite);
@@ -233,6 +291,41 @@ describe('Chromium', () => {
       expect(result).toEqual({ page: expected, file: read, picture: drawn });
     } finally {
       await server.close();
+    }
+  });
+
+  const strict = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self' blob:";
+  it.each([
+    ['with a strict content security policy', { 'content-security-policy': strict }, false],
+    [
+      'where memory is shared',
+      { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' },
+      true,
+    ],
+  ])('runs workers %s', async (_, headers, isolated) => {
+    const server = await serveFolder(installed, headers);
+    try {
+      const url = `${server.url}/static/worker.html?dist=/node_modules/morse-smooth/dist`;
+      expect(await resultOf(url)).toEqual({ ...away, isolated });
+    } finally {
+      await server.close();
+    }
+  });
+
+  it('runs workers where their script and the modules are not found', async () => {
+    const moved = join(installed, 'moved');
+    cpSync(dist, moved, { recursive: true });
+    const missing = ['worker-script.js', ...Object.values(modules).map(({ wasm }) => wasm)];
+    for (const name of missing) rmSync(join(moved, name));
+    const server = await serveFolder(installed);
+    const { page, close } = await openPage(`${server.url}/static/worker.html?dist=/moved`);
+    try {
+      await page.waitForFunction(() => globalThis.result !== undefined);
+      expect(await page.evaluate(() => globalThis.result)).toEqual({ ...away, isolated: false });
+    } finally {
+      await close();
+      await server.close();
+      rmSync(moved, { recursive: true });
     }
   });
 });

@@ -25,8 +25,12 @@ it('shows ten lines of JavaScript that run', () => {
   expect(more).toEqual([example]);
   expect(read('examples', 'prescribe.mjs')).toContain(first);
   // The other pages show parts of other examples.
-  const others = ['constraints', 'prescribe', 'sheet'].map((name) => read('examples', `${name}.mjs`)).join('');
-  const blocks = ['methods', 'pictures', 'files', 'loading'].flatMap((page) => blocksOf('docs', `${page}.md`));
+  const others = ['constraints', 'prescribe', 'sheet', 'worker']
+    .map((name) => read('examples', `${name}.mjs`))
+    .join('');
+  const blocks = ['methods', 'pictures', 'files', 'loading', 'worker'].flatMap((page) =>
+    blocksOf('docs', `${page}.md`),
+  );
   expect(blocks.length).toBeGreaterThan(1);
   for (const block of blocks) expect(others).toContain(block);
   expect(example.trimEnd().split('\n')).toHaveLength(10);
@@ -48,6 +52,14 @@ it('keeps the critical points that are constrained', () => {
     'fixed at 28 vertices: true',
     'interpolated: 571, 574, 1145 → 3, 5, 8, changed by at most 30.8 %',
     'pulled: 571, 574, 1145 → 2, 1, 3, changed by at most 15.1 %',
+  ]);
+});
+
+it('smooths in a worker', () => {
+  expect(run('worker.mjs').trimEnd().split('\n')).toEqual([
+    'AbortError',
+    'minima 571 → 2, maxima 574 → 1',
+    'ε = 0.1: 4301 values',
   ]);
 });
 

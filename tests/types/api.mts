@@ -46,8 +46,8 @@ const handles: number = topology.genus;
 const { eulerCharacteristic, components, boundaryLoops, closed, orientable } = topology;
 const { nonManifoldEdges, nonManifoldVertices, isolatedVertices, degenerateTriangles } = topology;
 same<[typeof eulerCharacteristic, typeof closed], [number, boolean]>(true);
-same<ReturnType<TriMesh['positions']>, Float64Array>(true);
-same<ReturnType<TriMesh['triangles']>, Uint32Array>(true);
+same<ReturnType<TriMesh['positions']>, Float64Array<ArrayBuffer>>(true);
+same<ReturnType<TriMesh['triangles']>, Uint32Array<ArrayBuffer>>(true);
 
 // -------------------------------------------------------------------------------------------------------- field analysis
 const link: api.Link = 'skip';
@@ -57,7 +57,7 @@ const points: api.CriticalPoints = mesh.criticalPoints(heat, {
   link,
   rule: 'literal',
 });
-same<api.CriticalPoints['kinds'], Int8Array>(true);
+same<api.CriticalPoints['kinds'], Int8Array<ArrayBuffer>>(true);
 const { vertices, kinds, multiplicities, onBoundary, counts } = points;
 const { minima, maxima, saddles, indexSum } = counts;
 same<typeof indexSum, number | null>(true);
@@ -85,14 +85,14 @@ mesh.levelSets(heat, { saddles: false });
 
 const cut: api.Bands = mesh.bands(heat, { count: 5 });
 mesh.bands(new Float32Array(3), [0.5]);
-same<[typeof cut.bands, typeof cut.points], [Uint32Array, Float64Array]>(true);
+same<[typeof cut.bands, typeof cut.points], [Uint32Array<ArrayBuffer>, Float64Array<ArrayBuffer>]>(true);
 const { triangles: parts, parents, levels: cuts, edges: cutEdges, parameters: cutParameters } = cut;
 // @ts-expect-error bands are cut at levels
 mesh.bands(heat, { saddles: true });
 
 const hierarchy: api.DeltaHierarchy = mesh.deltaHierarchy(heat, { link });
 mesh.deltaHierarchy([1, 2, 3]);
-same<[typeof hierarchy.kinds, typeof hierarchy.vanishesAt], [Int8Array, Float64Array]>(true);
+same<[typeof hierarchy.kinds, typeof hierarchy.vanishesAt], [Int8Array<ArrayBuffer>, Float64Array<ArrayBuffer>]>(true);
 const { vanishesAtAbsolute, delta: steps, minima: minimaAt, maxima: maximaAt, saddles: saddlesAt } = hierarchy;
 // @ts-expect-error it is about every δ
 mesh.deltaHierarchy(heat, { delta: 0.1 });
@@ -111,11 +111,14 @@ mesh.laplacian({ weights: 'delaunay' });
 
 // ------------------------------------------------------------------------------------- persistence and the Morse complex
 const pairs: api.PersistencePairs = mesh.persistence([1, 2, 3]);
-same<api.PersistencePairs['kinds'], Int8Array>(true);
+same<api.PersistencePairs['kinds'], Int8Array<ArrayBuffer>>(true);
 const { extrema, birth, death, persistence, essentialMinima, essentialMaxima, essentialSaddles } = pairs;
-same<[typeof birth, typeof extrema, typeof essentialSaddles], [Float64Array, Uint32Array, Uint32Array]>(true);
+same<
+  [typeof birth, typeof extrema, typeof essentialSaddles],
+  [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]
+>(true);
 const curve: api.PersistenceCurve = mesh.persistenceCurve(new Float32Array(3));
-same<[typeof curve.threshold, typeof curve.minima], [Float64Array, Uint32Array]>(true);
+same<[typeof curve.threshold, typeof curve.minima], [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
 // @ts-expect-error it has no options: the curve has every threshold
 mesh.persistence(heat, { threshold: 0.1 });
 // @ts-expect-error strings are not numbers
@@ -138,7 +141,7 @@ mesh.simplify(heat, { keep: new BigInt64Array(2) });
 
 const complex: api.MorseComplex = mesh.morseComplex(heat, { persistence: 0.1, paths: 'merged' });
 const morsePolylines: api.Polylines = complex;
-same<[typeof complex.kinds, typeof complex.vertices], [Int8Array, Uint32Array]>(true);
+same<[typeof complex.kinds, typeof complex.vertices], [Int8Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
 mesh.morseComplex(heat);
 // @ts-expect-error one of two
 mesh.morseComplex(heat, { paths: 'all' });
@@ -147,13 +150,13 @@ mesh.morseComplex(heat, { threshold: 0.1 });
 
 const morse: api.MorseHierarchy = mesh.morseHierarchy(heat);
 const { cancelledAt, partners, into, arcs } = morse;
-same<[typeof cancelledAt, typeof arcs], [Float64Array, Uint32Array]>(true);
+same<[typeof cancelledAt, typeof arcs], [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
 // @ts-expect-error it has no options: the hierarchy has every threshold
 mesh.morseHierarchy(heat, { persistence: 0.1 });
 
 const basins: api.Basins = mesh.basins(heat, { persistence: 0.1 });
 const { descending, ascending } = basins;
-same<typeof descending, Uint32Array>(true);
+same<typeof descending, Uint32Array<ArrayBuffer>>(true);
 mesh.basins(heat, {});
 // @ts-expect-error only lines have paths
 mesh.basins(heat, { paths: 'merged' });
@@ -389,3 +392,9 @@ export const used = [
   ...[constrained, toInterpolate, fitted, toSmooth, smallestWeight, numberOfExtrema, kept, filtered, blurred],
   ...[parts, parents, cuts, cutEdges, cutParameters, vanishesAtAbsolute, steps, minimaAt, maximaAt, saddlesAt],
 ];
+
+// -------------------------------------------------------------------------------------- errors on their way to other threads
+export const arrived: MorseSmoothError = MorseSmoothError.from(new MorseSmoothError('Code', 'message').toJSON());
+MorseSmoothError.from({ code: 'Code', message: 'message' });
+// @ts-expect-error an error has a code
+MorseSmoothError.from({ message: 'message' });

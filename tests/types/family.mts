@@ -42,7 +42,7 @@ smoother.family(heat, { counts: true });
 const { epsilonRange, dimension, factorizations, shifts, errorEstimate, complete } = family;
 same<typeof epsilonRange, [number, number]>(true);
 same<[typeof dimension, typeof factorizations, typeof errorEstimate], [number, number, number]>(true);
-same<[typeof shifts, typeof complete], [Float64Array, boolean]>(true);
+same<[typeof shifts, typeof complete], [Float64Array<ArrayBuffer>, boolean]>(true);
 // @ts-expect-error it cannot be set
 family.dimension = 3;
 // @ts-expect-error nor can this
@@ -64,7 +64,7 @@ const curves: api.Sweep = family.sweep({ epsilons: [0.1, 1] as const, counts: tr
 const direct: api.Sweep = smoother.sweep(heat, { ...options, epsilons: Float64Array.of(1), counts: true });
 family.sweep();
 smoother.sweep(heat);
-same<[typeof curves.metricNorm, typeof curves.minima], [Float64Array, Uint32Array]>(true);
+same<[typeof curves.metricNorm, typeof curves.minima], [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
 const { epsilons, lInfinity, laplacianNorm, sobolev, maxima, saddles, lCurveCorner } = curves;
 const corner: number | undefined = epsilons[lCurveCorner];
 // @ts-expect-error numbers, not one
@@ -74,7 +74,10 @@ family.sweep({ count: true });
 
 const lives: api.ExtremumLives = family.lives({ channel: 0, perDecade: 20 });
 const { kinds, firstVertices, lastVertices, largestEpsilons, leastEpsilons } = lives;
-same<[typeof kinds, typeof firstVertices, typeof leastEpsilons], [Int8Array, Uint32Array, Float64Array]>(true);
+same<
+  [typeof kinds, typeof firstVertices, typeof leastEpsilons],
+  [Int8Array<ArrayBuffer>, Uint32Array<ArrayBuffer>, Float64Array<ArrayBuffer>]
+>(true);
 // @ts-expect-error lives are followed along the whole range
 family.lives({ epsilons: [1] });
 

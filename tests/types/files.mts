@@ -26,8 +26,8 @@ for (const { name, extensions, reads, writes, description } of formats()) {
 const file = readMesh(new Uint8Array(3), { format: 'ply', fileName: 'x.ply', weld: true });
 same<typeof file, api.MeshFile>(true);
 same<api.MeshFile['format'], 'obj' | 'off' | 'ply' | 'vtk'>(true);
-same<[typeof file.positions, typeof file.triangles], [Float64Array, Uint32Array]>(true);
-same<typeof file.vertexMap, Uint32Array | null>(true);
+same<[typeof file.positions, typeof file.triangles], [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
+same<typeof file.vertexMap, Uint32Array<ArrayBuffer> | null>(true);
 same<api.Diagnostic, Diagnostic>(true);
 const fields: Record<string, Float64Array> = file.fields;
 for (const { code, message, count, examples } of file.warnings) {
@@ -51,7 +51,7 @@ readField(new Uint8Array(3), { fileName: 'x.csv' });
 // @ts-expect-error not built yet
 readField(new Uint8Array(3), { format: 'npy' });
 const { columns, warnings } = readTable(new Uint8Array(3), { format: 'csv', fileName: 'x.csv' });
-same<[typeof columns, typeof warnings], [Record<string, Float64Array>, Diagnostic[]]>(true);
+same<[typeof columns, typeof warnings], [Record<string, Float64Array<ArrayBuffer>>, Diagnostic[]]>(true);
 // @ts-expect-error all columns are read
 readTable(new Uint8Array(3), { column: 2 });
 
@@ -66,3 +66,10 @@ writeMesh(file, { format: 'vtp' });
 writeMesh(new TriMesh(file.positions, file.triangles), { format: 'ply' });
 
 export { bytes, isOurs, ready };
+
+// -------------------------------------------------------------------------------------------------------------- bytes
+readMesh(new ArrayBuffer(3));
+readField(new DataView(new ArrayBuffer(3)));
+readTable(await new Blob([]).arrayBuffer());
+// @ts-expect-error which bytes, the numbers do not say
+readMesh(new Float64Array(3));

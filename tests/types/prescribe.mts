@@ -82,7 +82,10 @@ const result: api.Prescribed = smoother.prescribe(heat, { epsilon: 1 });
 const asSmoothed: api.Smoothed = result;
 const { minima, maxima, unavoidable, energy, unconstrainedEnergy, leastSlack, margin, gap, iterations, solves, route } =
   result;
-same<[typeof minima, typeof maxima, typeof unavoidable], [Uint32Array, Uint32Array, Uint32Array]>(true);
+same<
+  [typeof minima, typeof maxima, typeof unavoidable],
+  [Uint32Array<ArrayBuffer>, Uint32Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]
+>(true);
 same<[typeof energy, typeof unconstrainedEnergy, typeof gap], [number, number, number]>(true);
 same<[typeof leastSlack, typeof margin, typeof iterations, typeof solves], [number, number, number, number]>(true);
 same<typeof route, 'interiorPoint' | 'dual' | 'preview'>(true);

@@ -16,6 +16,8 @@ await init({ url: '/x.wasm' });
 const mesh = new TriMesh(new Float32Array(9), [0, 1, 2]);
 const [positions, triangles, heat] = [mesh.positions(), mesh.triangles(), new Float64Array(3)];
 const png: Uint8Array = snapshot(positions, triangles, heat);
+// Of memory that is shared with no other thread, which a Blob wants.
+export const blob = new Blob([snapshot(positions, triangles, heat), sheet(positions, triangles, heat, heat)]);
 snapshot([0, 0, 0, 1, 0, 0, 0, 1, 0], new Uint16Array(3), [1, 2, 3] as const, {});
 const camera: api.Camera = { direction: [1, 2, 3], up: [0, 0, 1] as const };
 const options: api.SnapshotOptions = {
@@ -84,7 +86,7 @@ sheet(positions, triangles, heat, heat, { criticalPoints: mesh.criticalPoints(he
 
 // -------------------------------------------------------------------------------------------------------------- scenes
 const scene = new Scene(positions, triangles);
-same<ReturnType<typeof scene.snapshot>, Uint8Array>(true);
+same<ReturnType<typeof scene.snapshot>, Uint8Array<ArrayBuffer>>(true);
 scene.snapshot(heat, options);
 scene.sheet(heat, heat, all);
 // @ts-expect-error positions and triangles, as the two modules share no memory
@@ -92,15 +94,20 @@ new Scene(mesh);
 
 const surface: api.Surface = scene.surface();
 const { normals, vertices, up, center, scale } = surface;
-same<[typeof normals, typeof vertices, typeof up], [Float32Array, Uint32Array, 'y' | 'z']>(true);
+same<[typeof normals, typeof vertices, typeof up], [Float32Array<ArrayBuffer>, Uint32Array<ArrayBuffer>, 'y' | 'z']>(
+  true,
+);
 same<[typeof center, typeof scale], [[number, number, number], number]>(true);
 
 const drawing: api.DrawOptions = { levels: [1, 2], bands: true, colormap: names[0], range: [0, 1] };
 const list: api.DrawList = scene.drawList(heat, drawing);
 const { shades, colors, gap, range, levels, lines, solids, size, light } = list;
-same<typeof levels, Float64Array>(true);
+same<typeof levels, Float64Array<ArrayBuffer>>(true);
 same<typeof gap, number | null>(true);
-same<[typeof shades, typeof colors, typeof range], [Float32Array, Uint8Array, [number, number]]>(true);
+same<
+  [typeof shades, typeof colors, typeof range],
+  [Float32Array<ArrayBuffer>, Uint8Array<ArrayBuffer>, [number, number]]
+>(true);
 same<[typeof lines, typeof solids], [api.Lines[], api.Solids[]]>(true);
 same<[typeof size, typeof light], [api.SolidSize, api.Light]>(true);
 same<api.Lines['kind'], 'levels' | 'descending' | 'ascending'>(true);
@@ -108,7 +115,10 @@ same<api.Solids['kind'], 'minima' | 'saddles' | 'maxima'>(true);
 const stroke: api.Stroke = lines[0]!.stroke;
 const casing: number | undefined = stroke.casing?.width;
 const { shape, rim, glow, places, axes, radius, lift } = solids[0]!;
-same<[typeof shape.triangles, typeof places, typeof axes], [Uint32Array, Float32Array, Float32Array]>(true);
+same<
+  [typeof shape.triangles, typeof places, typeof axes],
+  [Uint32Array<ArrayBuffer>, Float32Array<ArrayBuffer>, Float32Array<ArrayBuffer>]
+>(true);
 // @ts-expect-error a list is the same from everywhere
 scene.drawList(heat, { camera });
 // @ts-expect-error and of no size

@@ -29,7 +29,7 @@ export const radiusOf = ({ cover, least, most }: SolidSize, count: number): numb
 export function chosen(all: readonly Solids[], isChosen: (vertex: number) => boolean, size: SolidSize): Solids[] {
   const some = all.map((solids) => {
     const members = [...solids.vertices.keys()].filter((k) => isChosen(solids.vertices[k]!));
-    const of = (points: Float32Array): Float32Array =>
+    const of = (points: Float32Array) =>
       Float32Array.from({ length: 3 * members.length }, (_, i) => points[3 * members[Math.floor(i / 3)]! + (i % 3)]!);
     const vertices = Uint32Array.from(members, (k) => solids.vertices[k]!);
     const bothSides = Uint8Array.from(members, (k) => solids.bothSides[k]!);

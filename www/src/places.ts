@@ -32,7 +32,7 @@ export class Places {
   }
 
   /** The positions of vertices, one after the other. */
-  positions(vertices: ArrayLike<number>): Float32Array {
+  positions(vertices: ArrayLike<number>): Float32Array<ArrayBuffer> {
     const points = new Float32Array(3 * vertices.length);
     for (let k = 0; k < vertices.length; k++) this.position(vertices[k]!).toArray(points, 3 * k);
     return points;

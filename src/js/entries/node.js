@@ -1,6 +1,7 @@
-// The entry for Node: `require` gets this bundled, `import` gets it through node.mjs.
-import { core } from '../api/core/module.js';
-import { startFrom } from '../runtime/load-node.js';
+// The entry for Node, bundled once for `import` and once for `require`.
+import { packed } from 'this:embedded';
+import module from 'this:module';
+import { onDemand } from '../runtime/load-node.js';
 
-export * from '../api/core/index.js';
-export default startFrom('morse_smooth_bg.wasm', core);
+export * from 'this:api';
+export default onDemand(module, packed);

@@ -9,6 +9,9 @@ const UNSIGNED = ['Uint8Array', 'Uint8ClampedArray', 'Uint16Array', 'Uint32Array
 const SIGNED = ['Int8Array', 'Int16Array', 'Int32Array'];
 const TYPED_NUMBERS = ['Float64Array', 'Float32Array', ...UNSIGNED, ...SIGNED];
 
+/** Arrays that are the bytes of a file as they are. */
+const BYTES = ['Uint8Array', 'Uint8ClampedArray', 'Int8Array', 'DataView'];
+
 /** The name of a typed array's class, also for arrays of another realm (a frame, a vm context). */
 export const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : undefined);
 
@@ -17,9 +20,10 @@ export const typedArrayName = (value) => (ArrayBuffer.isView(value) ? value[Symb
  * realm does not, as the module tells arrays by their class.
  */
 export function toNumbers(value, argument) {
+  refuseDetached(value, argument);
   if (value instanceof Float64Array && typedArrayName(value) === 'Float64Array') return value;
   if (TYPED_NUMBERS.includes(typedArrayName(value))) return new Float64Array(value);
-  if (!Array.isArray(value)) throw invalidArgument(argument, NUMBERS);
+  if (!Array.isArray(value)) throw noArray(value, argument, NUMBERS);
   const numbers = new Float64Array(value.length);
   for (let index = 0; index < value.length; index++) {
     const entry = value[index];
@@ -34,11 +38,12 @@ export function toNumbers(value, argument) {
  * that it cannot be asked about, `refuse` gives the error.
  */
 export function toIds(value, argument, refuse) {
+  refuseDetached(value, argument);
   const name = typedArrayName(value);
   if (name === 'Uint32Array' && value instanceof Uint32Array) return value;
   if (UNSIGNED.includes(name)) return new Uint32Array(value);
   const isTyped = SIGNED.includes(name);
-  if (!isTyped && !Array.isArray(value)) throw invalidArgument(argument, IDS);
+  if (!isTyped && !Array.isArray(value)) throw noArray(value, argument, IDS);
   const ids = new Uint32Array(value.length);
   for (let index = 0; index < value.length; index++) {
     const id = value[index];
@@ -69,10 +74,33 @@ export function toVertices(value, argument, vertices) {
   });
 }
 
-/** Bytes of a file: a Uint8Array, which a Node Buffer is too. */
+/** Bytes of a file: a Uint8Array, which a Node Buffer is too, or others that hold bytes. */
 export function toBytes(value) {
+  refuseDetached(value, 'bytes');
   if (typedArrayName(value) === 'Uint8Array') return value;
-  throw invalidArgument('bytes', 'a Uint8Array');
+  if (isBuffer(value)) return new Uint8Array(value);
+  if (BYTES.includes(typedArrayName(value))) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  throw invalidArgument('bytes', 'an ArrayBuffer, a Uint8Array or another view with one byte per entry');
+}
+
+/** An ArrayBuffer, also of another realm. */
+const isBuffer = (value) => Object.prototype.toString.call(value) === '[object ArrayBuffer]';
+
+/** A buffer alone does not say what its bytes are. */
+function noArray(value, argument, expected) {
+  const more = isBuffer(value) ? '; of an ArrayBuffer make one, by `new Float32Array(buffer)` say' : '';
+  return invalidArgument(argument, expected + more);
+}
+
+/** A buffer that was transferred, to a worker, say, has no bytes any more, and neither have the arrays on it: no wonder to its owner. */
+function refuseDetached(value, argument) {
+  if (!ArrayBuffer.isView(value) && !isBuffer(value)) return;
+  try {
+    new Uint8Array(value.buffer ?? value);
+  } catch {
+    const message = `\`${argument}\` is detached: its buffer was transferred, by \`postMessage\` say, and nothing is left here`;
+    throw new MorseSmoothError('InvalidArgument', message, { argument, detached: true });
+  }
 }
 
 /**

@@ -11,6 +11,17 @@ export class MorseSmoothError extends Error {
     this.code = code;
     this.detail = detail;
   }
+
+  /** An error again of what `toJSON` made. */
+  static from({ code, message, detail }) {
+    return new MorseSmoothError(code, message, detail);
+  }
+
+  /** What is left of an error on its way to another thread, which loses all but the message of an error as it is. */
+  toJSON() {
+    const { name, code, message, detail } = this;
+    return { name, code, message, detail };
+  }
 }
 // On the prototype, as with the built-in errors: a name, not a field of every instance.
 Object.defineProperty(MorseSmoothError.prototype, 'name', {
@@ -34,10 +45,16 @@ export function invalidOption(option, expected) {
   return new MorseSmoothError('InvalidOption', `option \`${option}\` takes ${expected}`, { option, expected });
 }
 
-/** The error for what the WebAssembly module threw as a plain `{ code, message, detail }`; nothing for whatever else was thrown. */
-export function reported(thrown) {
+/**
+ * The error for what the WebAssembly module threw as a plain `{ code, message, detail }`; nothing for whatever else was thrown. `hint`
+ * says more of an option that is unknown.
+ */
+export function reported(thrown, hint) {
   const isReport = typeof thrown?.code === 'string' && typeof thrown.message === 'string' && !(thrown instanceof Error);
-  return isReport ? new MorseSmoothError(thrown.code, thrown.message, thrown.detail ?? {}) : null;
+  if (!isReport) return null;
+  const { code, message, detail = {} } = thrown;
+  const more = code === 'UnknownOption' && hint ? hint(detail.option) : null;
+  return new MorseSmoothError(code, message + (more?.text ?? ''), { ...detail, ...more?.detail });
 }
 
 /** The error for what must not happen. */

@@ -1,5 +1,40 @@
 import { MorseSmoothError } from './error.js';
 
+/** As many objects may be there at once before the garbage collector is made to look whether some were forgotten. */
+const FEW = 4;
+/** More than engines let pass: V8 looks after 64 MB. Pages that nobody touches take no memory. */
+const PRESSURE = 128 << 20;
+
+/** The objects that are there, and as many as may be. */
+let living = 0;
+let limit = FEW;
+let forgotten = null;
+
+/**
+ * The garbage collector knows nothing of the memory behind these objects, which are a few bytes to it: it would collect forgotten ones
+ * when gigabytes are taken. A buffer that is let go of at once reminds it, each time that there are half as many again.
+ */
+function count(handle) {
+  forgotten ??= globalThis.FinalizationRegistry
+    ? new FinalizationRegistry(discount)
+    : { register() {}, unregister() {} };
+  forgotten.register(handle, undefined, handle);
+  living++;
+  if (living <= limit) return;
+  limit = 1.5 * living;
+  try {
+    // That its length is looked at keeps bundlers from leaving it out.
+    limit += Math.min(0, new ArrayBuffer(PRESSURE).byteLength);
+  } catch {
+    // There is no room for it: the collector has been at work, then.
+  }
+}
+
+function discount() {
+  living--;
+  limit = Math.max(FEW, Math.min(limit, 1.5 * living));
+}
+
 /**
  * Owns one object in the memory of an instance and knows whether it was freed and whether a call is running on it.
  *
@@ -17,6 +52,7 @@ export class Handle {
     this.#kind = kind;
     this.#instance = instance;
     this.#raw = raw;
+    count(this);
   }
 
   /** The instance that the object lives in. */
@@ -51,8 +87,11 @@ export class Handle {
   free() {
     this.#refuseWhileRunning('freed');
     const raw = this.#raw;
+    if (raw === null) return;
     this.#raw = null;
-    if (raw !== null && !this.#instance.isLost) this.#instance.call(() => raw.free());
+    forgotten.unregister(this);
+    discount();
+    if (!this.#instance.isLost) this.#instance.call(() => raw.free());
   }
 
   #run(how, action) {

@@ -5,11 +5,14 @@ import { Handle } from './handles.js';
 export class Instance {
   #glue;
   #entry;
+  #hint;
   #isLost = false;
 
-  constructor(glue, entry) {
+  /** `hint` says more of an option that the module does not know. */
+  constructor(glue, entry, hint) {
     this.#glue = glue;
     this.#entry = entry;
+    this.#hint = hint;
   }
 
   get isLost() {
@@ -31,7 +34,7 @@ export class Instance {
       if (thrown instanceof MorseSmoothError) throw thrown;
       // It may have been lost already, to a call from within a callback.
       this.#refuseIfLost();
-      throw reported(thrown) ?? this.#lose(thrown);
+      throw reported(thrown, this.#hint) ?? this.#lose(thrown);
     }
     this.#refuseIfLost();
     return result;

@@ -1,20 +1,32 @@
 // For Node only.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { Buffer } from 'node:buffer';
+import { TextDecoder, TextEncoder } from 'node:util';
+import { inflateSync } from 'node:zlib';
 import { sourceOf } from './load.js';
 
-/** Starts a module from the file of that name beside the script, and returns the `init` of its entry. */
-export function startFrom(file, module) {
-  module.startSync(new WebAssembly.Module(readFileSync(join(__dirname, file))));
-  const loaded = Promise.resolve();
+/**
+ * Lets a module start when it is first needed, and returns the `init` of its entry.
+ *
+ * The code comes out of the script: no file has to be found, whoever bundles the script and wherever to, or may be read. The classes
+ * for text are Node's own: a test environment that plays a browser may have none.
+ */
+export function onDemand(module, packed) {
+  module.onDemand(() => unpacked(packed), { TextDecoder, TextEncoder });
+  let loaded = null;
 
-  /** The module runs since the import; the options are checked all the same, so that one code serves both worlds. */
+  /** `options.wasm` is for browsers; the options are checked all the same, so that one code serves both worlds. */
   return function init(options) {
     try {
       sourceOf(options);
+      void module.instance;
     } catch (error) {
       return Promise.reject(error);
     }
-    return loaded;
+    return (loaded ??= Promise.resolve());
   };
+}
+
+/** The code from its text in a script. */
+export function unpacked(packed) {
+  return new WebAssembly.Module(inflateSync(Buffer.from(packed, 'base64')));
 }

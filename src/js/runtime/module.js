@@ -1,4 +1,5 @@
 import { MorseSmoothError } from './error.js';
+import { hintsOf } from './hints.js';
 import { Instance } from './instance.js';
 
 /**
@@ -10,20 +11,28 @@ export class Module {
   #createGlue;
   #entry;
   #mark;
+  #hint;
   #code = null;
   #instance = null;
-  #renewsItself = false;
+  /** Gives the code at once, for Node, where that may block. */
+  #compile = null;
+  #globals = globalThis;
 
-  /** `entry` is the import that loads the module, `mark` a name that no other module exports. */
-  constructor(createGlue, entry, mark) {
+  /** `entry` is the import that loads the module, `mark` a name that no other module exports, `options` what its functions take. */
+  constructor(createGlue, entry, mark, options) {
     this.#createGlue = createGlue;
     this.#entry = entry;
     this.#mark = mark;
+    this.#hint = hintsOf(options);
   }
 
   /** The compiled code, once there is some. */
   get code() {
     return this.#code;
+  }
+
+  get entry() {
+    return this.#entry;
   }
 
   get isLost() {
@@ -32,12 +41,10 @@ export class Module {
 
   /** The running instance. */
   get instance() {
-    if (this.#instance === null) {
-      throw new MorseSmoothError('NotInitialized', `call \`await init()\` of ${this.#entry} once before anything else`);
-    }
-    if (this.#instance.isLost) {
-      if (!this.#renewsItself) throw this.#instance.lostError();
-      this.startSync(this.#code);
+    if (this.#instance === null || this.#instance.isLost) {
+      if (this.#compile !== null) this.#startNow();
+      else if (this.#instance === null) throw this.#notInitialized();
+      else throw this.#instance.lostError();
     }
     return this.#instance;
   }
@@ -45,22 +52,30 @@ export class Module {
   /** Starts an instance of the compiled code. */
   async start(code) {
     this.#refuseForeign(code);
-    const glue = this.#createGlue();
-    await glue.default({ module_or_path: code });
-    this.#running(glue, code);
+    const glue = this.#createGlue(this.#globals);
+    this.#running(glue, await WebAssembly.instantiate(code, glue.imports()), code);
   }
 
-  /** Starts an instance at once, for Node, where that may block; and starts another one whenever one was lost. */
-  startSync(code) {
-    const glue = this.#createGlue();
-    glue.initSync({ module: code });
-    this.#running(glue, code);
-    this.#renewsItself = true;
+  /** Starts an instance whenever there is none, of what `compile` gives; `globals` has the classes for text. */
+  onDemand(compile, globals) {
+    this.#compile = compile;
+    this.#globals = globals;
   }
 
-  #running(glue, code) {
+  #startNow() {
+    const code = this.#code ?? this.#compile();
+    const glue = this.#createGlue(this.#globals);
+    this.#running(glue, new WebAssembly.Instance(code, glue.imports()), code);
+  }
+
+  #running(glue, instance, code) {
+    glue.run(instance, code);
     this.#code = code;
-    this.#instance = new Instance(glue, this.#entry);
+    this.#instance = new Instance(glue, this.#entry, this.#hint);
+  }
+
+  #notInitialized() {
+    return new MorseSmoothError('NotInitialized', `call \`await init()\` of ${this.#entry} once before anything else`);
   }
 
   #refuseForeign(code) {

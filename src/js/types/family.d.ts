@@ -82,7 +82,7 @@ export class SmoothingFamily {
   readonly dimension: number;
   readonly factorizations: number;
   /** The ε that factors were computed for, in that order. */
-  readonly shifts: Float64Array;
+  readonly shifts: OwnFloat64Array;
   /**
    * The largest estimated relative error ‖x − x_ε‖₂/‖x_ε‖₂ over the range, of the field scaled to [0, 1]. An estimate: on the meshes
    * measured it was between a third of the largest error and ten times as large.
@@ -95,7 +95,7 @@ export class SmoothingFamily {
   /** One factorisation more, where the estimated error is largest. Returns whether the family is complete; then nothing is done. */
   grow(options?: ProgressOptions): boolean;
   /** The smoothed values alone, in milliseconds; {@link SmoothingFamily.at} adds the report. */
-  values(epsilon: number): Float64Array;
+  values(epsilon: number): OwnFloat64Array;
   /** As {@link Smoother.tikhonov} or {@link Smoother.leastSquares} returns it, with the route `"family"`. */
   at(epsilon: number, options?: ProgressOptions): Smoothed;
   /** Norms, and on demand numbers of critical points, along ε. */
@@ -121,20 +121,20 @@ export interface SweepOptions extends ProgressOptions {
 
 /** What becomes of a field along ε, one entry for each. Norms are of the field scaled to [0, 1], as in {@link SmoothReport}. */
 export interface Sweep {
-  epsilons: Float64Array;
+  epsilons: OwnFloat64Array;
   /** max |x − f|. */
-  lInfinity: Float64Array;
+  lInfinity: OwnFloat64Array;
   /** ‖x − f‖ in the metric used: falls as ε grows. */
-  metricNorm: Float64Array;
+  metricNorm: OwnFloat64Array;
   /** ‖Lx‖₂: grows with ε. */
-  laplacianNorm: Float64Array;
+  laplacianNorm: OwnFloat64Array;
   /** xᵀLx. */
-  sobolev: Float64Array;
+  sobolev: OwnFloat64Array;
   /** Empty unless `counts`. */
-  minima: Uint32Array;
-  maxima: Uint32Array;
+  minima: OwnUint32Array;
+  maxima: OwnUint32Array;
   /** With multiplicity. */
-  saddles: Uint32Array;
+  saddles: OwnUint32Array;
   /** The place in `epsilons` that is nearest to the corner of the L-curve. */
   lCurveCorner: number;
 }
@@ -153,10 +153,10 @@ export interface LivesOptions extends ProgressOptions {
  */
 export interface ExtremumLives {
   /** −1 minimum, 1 maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** The vertex at the largest ε at which it is there, and at the least. */
-  firstVertices: Uint32Array;
-  lastVertices: Uint32Array;
-  largestEpsilons: Float64Array;
-  leastEpsilons: Float64Array;
+  firstVertices: OwnUint32Array;
+  lastVertices: OwnUint32Array;
+  largestEpsilons: OwnFloat64Array;
+  leastEpsilons: OwnFloat64Array;
 }

@@ -21,13 +21,13 @@ export interface DeltaOptions {
 
 /** The critical points of a field: entry k of every array is about the same vertex. Vertices ascend. */
 export interface CriticalPoints {
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
   /** −1 minimum, 0 saddle, 1 maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** How often each vertex counts: an ordinary saddle once, a monkey saddle twice, …; an extremum once. */
-  multiplicities: Uint32Array;
+  multiplicities: OwnUint32Array;
   /** 1 on the boundary, else 0. */
-  onBoundary: Uint8Array;
+  onBoundary: OwnUint8Array;
   counts: CriticalCounts;
 }
 
@@ -44,21 +44,21 @@ export interface CriticalCounts {
 /** Lines of points: line k has the points `offsets[k]` up to, not including, `offsets[k + 1]`. */
 export interface Polylines {
   /** x, y, z of each point. */
-  points: Float64Array;
+  points: OwnFloat64Array;
   /** One more than there are lines. */
-  offsets: Uint32Array;
+  offsets: OwnUint32Array;
 }
 
 /** Level sets. A closed line does not repeat its first point. */
 export interface LevelSets extends Polylines {
   /** The level of each line, not one entry for each level: a level can have several lines, or none. */
-  levels: Float64Array;
+  levels: OwnFloat64Array;
   /** 1 for each line that closes, 0 for one that ends at the boundary. */
-  closed: Uint8Array;
+  closed: OwnUint8Array;
   /** The two ends a < b of the edge that each point lies on. */
-  edges: Uint32Array;
+  edges: OwnUint32Array;
   /** Where on its edge each point lies: t of (1 − t)·a + t·b. */
-  parameters: Float64Array;
+  parameters: OwnFloat64Array;
 }
 
 /** Two levels for each saddle: just below it and just above. */
@@ -72,83 +72,83 @@ export interface SaddleLevels {
 /** The mesh cut along level sets: see {@link TriMesh.bands}. */
 export interface Bands {
   /** The levels, ascending, each once. */
-  levels: Float64Array;
+  levels: OwnFloat64Array;
   /** x, y, z of each point. */
-  points: Float64Array;
+  points: OwnFloat64Array;
   /** Three points for each triangle, turned as the triangle of the mesh that it is a part of. */
-  triangles: Uint32Array;
+  triangles: OwnUint32Array;
   /** The band of each triangle, 0 up to and including the number of levels. */
-  bands: Uint32Array;
+  bands: OwnUint32Array;
   /** The triangle of the mesh that each triangle is a part of. */
-  parents: Uint32Array;
+  parents: OwnUint32Array;
   /** The ends a ≤ b of the edge that each point lies on; twice the same where it is a vertex. */
-  edges: Uint32Array;
+  edges: OwnUint32Array;
   /** Where on its edge each point lies: t of (1 − t)·a + t·b. */
-  parameters: Float64Array;
+  parameters: OwnFloat64Array;
 }
 
 /** The critical points at every δ: see {@link TriMesh.deltaHierarchy}. A vertex is critical at δ = 0, and at every δ below the one at which it vanishes. */
 export interface DeltaHierarchy {
   /** Every critical vertex at δ = 0, ascending. */
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
   /** −1 minimum, 0 saddle, 1 maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** The relative δ at which each vertex stops being critical: 0 where only its number tells it from an equal neighbour. */
-  vanishesAt: Float64Array;
+  vanishesAt: OwnFloat64Array;
   /** The same δ in units of the field. */
-  vanishesAtAbsolute: Float64Array;
+  vanishesAtAbsolute: OwnFloat64Array;
   /**
    * Numbers of critical points as steps over the relative δ: row 0 is δ = 0, and row k holds from `delta[k]` up to, not
    * including, `delta[k + 1]`. (Where ties matter, row 1 begins at the least number above 0.)
    */
-  delta: Float64Array;
-  minima: Uint32Array;
-  maxima: Uint32Array;
+  delta: OwnFloat64Array;
+  minima: OwnUint32Array;
+  maxima: OwnUint32Array;
   /** With multiplicity. */
-  saddles: Uint32Array;
+  saddles: OwnUint32Array;
 }
 
 /** Pairs of extrema and saddles: see {@link TriMesh.persistence}. Entry k of the first six arrays is about the same pair. */
 export interface PersistencePairs {
-  extrema: Uint32Array;
-  saddles: Uint32Array;
+  extrema: OwnUint32Array;
+  saddles: OwnUint32Array;
   /** −1 minimum and saddle, 1 saddle and maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** The lower of the two values. */
-  birth: Float64Array;
+  birth: OwnFloat64Array;
   /** The higher of the two values. */
-  death: Float64Array;
+  death: OwnFloat64Array;
   /** death − birth; descending. */
-  persistence: Float64Array;
+  persistence: OwnFloat64Array;
   /** The lowest vertex of each component of the mesh. */
-  essentialMinima: Uint32Array;
+  essentialMinima: OwnUint32Array;
   /** The highest vertex of each component of the mesh. */
-  essentialMaxima: Uint32Array;
+  essentialMaxima: OwnUint32Array;
   /**
    * Saddles at which a loop begins that never closes up: as many as the first Betti number, 2g on a closed orientable surface.
    * A vertex may stand there several times.
    */
-  essentialSaddles: Uint32Array;
+  essentialSaddles: OwnUint32Array;
 }
 
 /** Numbers of extrema as steps over the threshold: see {@link TriMesh.persistenceCurve}. Row k holds from `threshold[k]` up to, not including, `threshold[k + 1]`. */
 export interface PersistenceCurve {
   /** In units of the field; row 0 is 0. */
-  threshold: Float64Array;
+  threshold: OwnFloat64Array;
   /** Minima of persistence above the threshold, the lowest vertex of each component included. */
-  minima: Uint32Array;
-  maxima: Uint32Array;
+  minima: OwnUint32Array;
+  maxima: OwnUint32Array;
 }
 
 /** What {@link TriMesh.simplify} returns. */
 export interface Simplified {
   /** One value for each vertex. */
-  values: Float64Array;
+  values: OwnFloat64Array;
   /**
    * Extrema that were to go, but that no field on this mesh can do without: there are some only where parts of the mesh hang together
    * in single vertices. Ascending.
    */
-  unavoidable: Uint32Array;
+  unavoidable: OwnUint32Array;
 }
 
 /** What {@link TriMesh.simplify} is to keep. */
@@ -172,13 +172,13 @@ export interface MorseComplexOptions {
  */
 export interface MorseComplex extends Polylines {
   /** The saddle that each line comes from. */
-  saddles: Uint32Array;
+  saddles: OwnUint32Array;
   /** The extremum that each line leads to. */
-  extrema: Uint32Array;
+  extrema: OwnUint32Array;
   /** −1 to a minimum, 1 to a maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** The vertex of each point. */
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
 }
 
 /**
@@ -188,25 +188,25 @@ export interface MorseComplex extends Polylines {
  */
 export interface MorseHierarchy {
   /** The vertex of each node: the extrema first, then the saddles. */
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
   /** −1 minimum, 0 saddle, 1 maximum. */
-  kinds: Int8Array;
+  kinds: OwnInt8Array;
   /** The persistence of the pair that the node is cancelled with, in units of the field; infinite for those that stay. */
-  cancelledAt: Float64Array;
+  cancelledAt: OwnFloat64Array;
   /** For each node the one that it is cancelled with; itself for those that stay. */
-  partners: Uint32Array;
+  partners: OwnUint32Array;
   /** For each extremum the node of the one that takes over its arcs; for others the node itself. */
-  into: Uint32Array;
+  into: OwnUint32Array;
   /** Two nodes for each arc, a saddle and an extremum: on a surface without boundary four arcs for each saddle. */
-  arcs: Uint32Array;
+  arcs: OwnUint32Array;
 }
 
 /** Where the steepest paths end: see {@link TriMesh.basins}. A vertex of no triangle has 4294967295. */
 export interface Basins {
   /** The minimum at which the path downwards ends. */
-  descending: Uint32Array;
+  descending: OwnUint32Array;
   /** The maximum at which the path upwards ends. */
-  ascending: Uint32Array;
+  ascending: OwnUint32Array;
 }
 
 /** How rough a field is: see {@link TriMesh.smoothness}. */
@@ -219,8 +219,8 @@ export interface Smoothness {
 export interface SparseMatrix {
   rows: number;
   columns: number;
-  columnPointers: Uint32Array;
+  columnPointers: OwnUint32Array;
   /** The row of each entry, ascending in each column. */
-  rowIndices: Uint32Array;
-  values: Float64Array;
+  rowIndices: OwnUint32Array;
+  values: OwnFloat64Array;
 }

@@ -5,18 +5,30 @@
  * @module
  */
 
-import type { Diagnostic, Ids, InitOptions, Numbers, Weld } from './index.js';
+import type {
+  Diagnostic,
+  Ids,
+  InitOptions,
+  Numbers,
+  OwnFloat64Array,
+  OwnUint32Array,
+  OwnUint8Array,
+  Weld,
+} from './index.js';
 
 export { MorseSmoothError } from './index.js';
 export type { Diagnostic } from './index.js';
 
 /**
  * Loads the WebAssembly module of the files, which is another one than that of the package's main entry. In a browser, wait for it
- * before any other call (otherwise `NotInitialized`); in Node the import has already done it.
+ * before any other call (otherwise `NotInitialized`); in Node the first call does it by itself.
  *
  * @throws `LoadFailed` where the module cannot be fetched or compiled.
  */
 export default function init(options?: InitOptions): Promise<void>;
+
+/** The bytes of a file, as `fetch` and file pickers give them, or as views (a `DataView`, or an array with one byte per entry, such as Node's `Buffer`). */
+export type Bytes = ArrayBuffer | Uint8Array | Uint8ClampedArray | Int8Array | DataView;
 
 /** What there is of a format. */
 export interface FormatInfo {
@@ -42,13 +54,13 @@ export type TableFormat = 'txt' | 'csv';
 /** What {@link readMesh} found. Nothing has been checked as a mesh: `new TriMesh(…)` of the main entry does that. */
 export interface MeshFile {
   /** x, y, z of every vertex, one after the other. */
-  positions: Float64Array;
+  positions: OwnFloat64Array;
   /** Three vertices for every triangle, numbered from 0. */
-  triangles: Uint32Array;
+  triangles: OwnUint32Array;
   /** One value per vertex, by name. Missing values are NaN, with a warning. Components of an array `v` are `v_0`, `v_1`, … */
-  fields: Record<string, Float64Array>;
+  fields: Record<string, OwnFloat64Array>;
   /** For every vertex of the file the vertex that it became by welding; null where they are the same. */
-  vertexMap: Uint32Array | null;
+  vertexMap: OwnUint32Array | null;
   format: MeshFormat;
   /** What was left out or put right. What is to be said of the mesh itself, `TriMesh.warnings` has. */
   warnings: Diagnostic[];
@@ -73,7 +85,7 @@ export interface ReadMeshOptions {
  *
  * @throws the codes for files of {@link MorseSmoothError.code}; with `weld` those for meshes, too
  */
-export function readMesh(bytes: Uint8Array, options?: ReadMeshOptions): MeshFile;
+export function readMesh(bytes: Bytes, options?: ReadMeshOptions): MeshFile;
 
 /** What {@link readTable} takes. */
 export interface ReadTableOptions {
@@ -95,7 +107,7 @@ export interface ReadFieldOptions extends ReadTableOptions {
  *
  * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
  */
-export function readField(bytes: Uint8Array, options?: ReadFieldOptions): Float64Array;
+export function readField(bytes: Bytes, options?: ReadFieldOptions): OwnFloat64Array;
 
 /** What {@link readTable} found. */
 export interface TableFile {
@@ -103,7 +115,7 @@ export interface TableFile {
    * Every column of numbers by its name in the first line, or by its number from 0 where that line holds numbers. Missing values are
    * NaN.
    */
-  columns: Record<string, Float64Array>;
+  columns: Record<string, OwnFloat64Array>;
   warnings: Diagnostic[];
 }
 
@@ -114,7 +126,7 @@ export interface TableFile {
  * @throws `InvalidSyntax` with the `line` for a row with another number of cells than the first; `MissingElement` where there are no
  * numbers; `EmptyFile`
  */
-export function readTable(bytes: Uint8Array, options?: ReadTableOptions): TableFile;
+export function readTable(bytes: Bytes, options?: ReadTableOptions): TableFile;
 
 /** A mesh to be written: what {@link readMesh} gives, or the arrays of a `TriMesh`. */
 export interface MeshArrays {
@@ -139,4 +151,4 @@ export interface WriteMeshOptions {
  *
  * @throws the codes for meshes of {@link MorseSmoothError.code}, but for those of areas; `LengthMismatch`, `NonFiniteValue`
  */
-export function writeMesh(mesh: MeshArrays, options: WriteMeshOptions): Uint8Array;
+export function writeMesh(mesh: MeshArrays, options: WriteMeshOptions): OwnUint8Array;

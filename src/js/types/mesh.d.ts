@@ -53,15 +53,15 @@ export class TriMesh {
   readonly warnings: Diagnostic[];
 
   /** x, y, z of each vertex. */
-  positions(): Float64Array;
+  positions(): OwnFloat64Array;
   /** Three vertex numbers for each triangle. */
-  triangles(): Uint32Array;
+  triangles(): OwnUint32Array;
 
   /**
    * For every vertex as it was given the vertex of this mesh that it became by welding; `null` where all are as they were given. A
    * value for each vertex as given becomes one for each vertex of the mesh through it.
    */
-  vertexMap(): Uint32Array | null;
+  vertexMap(): OwnUint32Array | null;
 
   /**
    * The mesh of the triangles whose three vertices all have a value, which is not `NaN`, and for each of its vertices the vertex of
@@ -69,7 +69,7 @@ export class TriMesh {
    *
    * @throws `EmptyMesh` where no triangle is left; `LengthMismatch`; `NonFiniteValue` for an infinite value
    */
-  withoutMissing(values: Numbers): { mesh: TriMesh; vertices: Uint32Array };
+  withoutMissing(values: Numbers): { mesh: TriMesh; vertices: OwnUint32Array };
 
   /**
    * Minima, saddles and maxima of a field. Equal values are told apart by their vertex numbers, so that at δ = 0 the index sum
@@ -155,7 +155,7 @@ export class TriMesh {
     values: Numbers,
     constraints: Constraints,
     options?: ChannelOptions & FillOptions & ProgressOptions,
-  ): Uint32Array;
+  ): OwnUint32Array;
 
   /**
    * How rough a field is: its Sobolev semi-norm fᵀLf and ‖Lf‖₂, of the values as they are. With `missing: "omit"` L is that of the

@@ -20,6 +20,14 @@ export type Numbers = Float64Array | Float32Array | Integers | readonly number[]
 /** Vertex numbers as they are taken: whole, from 0 to 2³² − 1 (otherwise `IndexOutOfBounds`). */
 export type Ids = Integers | readonly number[];
 
+// Arrays as they come out. Their memory is the caller's own and shared with no other thread: since TypeScript 5.7 their types say so
+// (`Float64Array<ArrayBuffer>`), and older ones know no such type.
+export type OwnFloat64Array = ReturnType<typeof Float64Array.of>;
+export type OwnFloat32Array = ReturnType<typeof Float32Array.of>;
+export type OwnUint32Array = ReturnType<typeof Uint32Array.of>;
+export type OwnUint8Array = ReturnType<typeof Uint8Array.of>;
+export type OwnInt8Array = ReturnType<typeof Int8Array.of>;
+
 /** Something in the input that was put right or left out. */
 export interface Diagnostic {
   /** Stable name. */
@@ -63,14 +71,14 @@ export interface MissingOptions {
 export type AnalysisOptions = MissingOptions & ProgressOptions;
 
 /**
- * Loads the WebAssembly module. In a browser, wait for it before any other call (otherwise `NotInitialized`); in Node the import
- * has already done it. Calling it again is free and gives the same promise; after a failure it tries anew.
+ * Loads the WebAssembly module. In a browser, wait for it before any other call (otherwise `NotInitialized`); in Node the first call
+ * of anything does it by itself. Calling it again is free and gives the same promise; after a failure it tries anew.
  *
  * Where a call failed inside the module with `InternalError`, that instance of the module is lost: all calls on its objects fail with
  * `InstanceLost`, and `free` does nothing. Call `init` again then, which makes another instance (of the code at hand, unless
  * `options.wasm` gives other code), and make the objects anew. In Node another instance is made by itself for the next new object.
  *
- * @throws `LoadFailed` where the module cannot be fetched or compiled; `detail` has `url` and `status` if a server answered.
+ * @throws `LoadFailed` where the module cannot be fetched or compiled; `detail` has the `url`, and the `status` if a server answered.
  */
 export default function init(options?: InitOptions): Promise<void>;
 
@@ -78,11 +86,17 @@ export default function init(options?: InitOptions): Promise<void>;
 export interface InitOptions {
   /**
    * Where the module's file is, or its content: `morse_smooth_bg.wasm`, for `morse-smooth/files` `morse_smooth_files_bg.wasm`, for
-   * `morse-smooth/snapshot` `morse_smooth_snapshot_bg.wasm`. Without it the file beside the script is fetched, and with
-   * `morse-smooth/inline` nothing is.
+   * `morse-smooth/snapshot` `morse_smooth_snapshot_bg.wasm`. Without it the file beside the script is fetched, or where it cannot be had
+   * a copy in a script is imported; with `morse-smooth/inline` nothing is fetched. Node, which has the copy, passes it by.
    */
-  wasm?: URL | string | Request | Response | BufferSource | WebAssembly.Module;
+  wasm?:
+    string | Global<'URL'> | Global<'Request'> | Global<'Response'> | ArrayBuffer | ArrayBufferView | CompiledModule;
 }
+
+/** An object of a class of the platform, in projects that have the platform's types. */
+type Global<Name extends string> = typeof globalThis extends Record<Name, { prototype: infer Type }> ? Type : never;
+/** A `WebAssembly.Module`, likewise. */
+type CompiledModule = typeof globalThis extends { WebAssembly: { Module: { prototype: infer Type } } } ? Type : never;
 
 /** The version of this package, such as `"0.1.0"`. */
 export const version: string;
@@ -106,10 +120,21 @@ export class MorseSmoothError extends Error {
    *   `IndefinitePreconditioner` (`iterations` done), `NotConverged` (`iterations` done, `residual` reached)
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - any long call: `Cancelled`, where `onProgress` stopped it; `OutOfMemory` (`bytes` needed), after which everything goes on
+   * - `morse-smooth/worker`: `ConnectionClosed`, `WorkerLost` (`reason`)
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`, `InstanceLost` (see {@link init})
    * - `InternalError`: a bug of ours, always worth a report
    */
   readonly code: string;
-  /** The numbers and names in the message: `vertex`, `triangle`, `index`, `line`, `option`, `expected`, `bytes`, … */
+  /**
+   * The numbers and names in the message: `vertex`, `triangle`, `index`, `line`, `option`, `expected`, `bytes`, … Of an unknown option also
+   * what was `meant`, or which functions and options it `belongsTo`; of an array whose buffer was transferred that it is `detached`.
+   */
   readonly detail: Record<string, unknown>;
+  /**
+   * What is left of an error on its way to another thread or into a log. `postMessage(error)` and `structuredClone(error)` keep its message
+   * alone, as of every class of errors: send this, and make an error of it again by {@link MorseSmoothError.from}.
+   */
+  toJSON(): { name: string; code: string; message: string; detail: Record<string, unknown> };
+  /** The error that `toJSON` was called on. */
+  static from(json: { code: string; message: string; detail?: Record<string, unknown> }): MorseSmoothError;
 }

@@ -115,11 +115,11 @@ export interface PrescribeByLeastSquaresOptions extends ExtremaOptions {
  */
 export interface Prescribed extends Smoothed {
   /** The minima of the result by (value, number), ascending: the chosen ones and those that are unavoidable. */
-  minima: Uint32Array;
+  minima: OwnUint32Array;
   /** Its maxima. */
-  maxima: Uint32Array;
+  maxima: OwnUint32Array;
   /** Those of them that nobody chose and no field on this mesh can do without; empty on manifolds. */
-  unavoidable: Uint32Array;
+  unavoidable: OwnUint32Array;
   /** The energy of the result. */
   energy: number;
   /** The energy of the field that is smoothed without prescribed extrema: no other field has less. */

@@ -278,7 +278,7 @@ export class Smoother {
 /** A smoothed field and what became of it. */
 export interface Smoothed {
   /** The values as they came in: in the same units and order, channels side by side. */
-  values: Float64Array;
+  values: OwnFloat64Array;
   /** The report of the first channel. */
   report: SmoothReport;
   /** The reports of all channels. */

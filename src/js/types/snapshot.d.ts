@@ -5,13 +5,24 @@
  * @module
  */
 
-import type { CriticalPoints, Ids, InitOptions, LevelSets, MorseComplex, Numbers } from './index.js';
+import type {
+  CriticalPoints,
+  Ids,
+  InitOptions,
+  LevelSets,
+  MorseComplex,
+  Numbers,
+  OwnFloat32Array,
+  OwnFloat64Array,
+  OwnUint32Array,
+  OwnUint8Array,
+} from './index.js';
 
 export { MorseSmoothError } from './index.js';
 
 /**
  * Loads the WebAssembly module of the pictures, which is another one than that of the package's main entry. In a browser, wait for
- * it before any other call (otherwise `NotInitialized`); in Node the import has already done it.
+ * it before any other call (otherwise `NotInitialized`); in Node the first call does it by itself.
  *
  * @throws `LoadFailed` where the module cannot be fetched or compiled.
  */
@@ -95,7 +106,7 @@ export interface SheetOptions extends SnapshotOptions {
  *
  * @throws what `new TriMesh(…)` and `TriMesh.criticalPoints` throw; `InvalidOption`, `UnknownOption`; `OutOfMemory`.
  */
-export function snapshot(positions: Numbers, triangles: Ids, values: Numbers, options?: SnapshotOptions): Uint8Array;
+export function snapshot(positions: Numbers, triangles: Ids, values: Numbers, options?: SnapshotOptions): OwnUint8Array;
 
 /**
  * Draws two fields and after − before, side by side: the two with one range, the difference with one around zero. Returns a PNG
@@ -109,15 +120,15 @@ export function sheet(
   before: Numbers,
   after: Numbers,
   options?: SheetOptions,
-): Uint8Array;
+): OwnUint8Array;
 
 /** A mesh that is drawn more than once. Call `free` when done with it. */
 export class Scene {
   constructor(positions: Numbers, triangles: Ids);
   /** See {@link snapshot}. */
-  snapshot(values: Numbers, options?: SnapshotOptions): Uint8Array;
+  snapshot(values: Numbers, options?: SnapshotOptions): OwnUint8Array;
   /** See {@link sheet}. */
-  sheet(before: Numbers, after: Numbers, options?: SheetOptions): Uint8Array;
+  sheet(before: Numbers, after: Numbers, options?: SheetOptions): OwnUint8Array;
   /** The surface of every draw list. */
   surface(): Surface;
   /** What `snapshot` draws on the surface, for a renderer of one's own. */
@@ -133,12 +144,12 @@ export class Scene {
  */
 export interface Surface {
   /** x, y, z of each corner. */
-  positions: Float32Array;
+  positions: OwnFloat32Array;
   /** Unit vectors. */
-  normals: Float32Array;
-  triangles: Uint32Array;
+  normals: OwnFloat32Array;
+  triangles: OwnUint32Array;
   /** The vertex of the mesh that each corner is. */
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
   /** Which axis points up: z for things that lie flat. */
   up: 'y' | 'z';
   /** A point p of the mesh is drawn at (p − center) · scale. */
@@ -152,18 +163,18 @@ export interface DrawList {
    * For each corner of the surface its place in `colors`, 0 to 1; below and above, the color is the first and the last. Linear on
    * triangles, as the field is. NaN where there is no value: then all of the triangle has the color `gap`.
    */
-  shades: Float32Array;
+  shades: OwnFloat32Array;
   /**
    * The color map: red, green, blue, 0 to 255, at equal steps from shade 0 to shade 1. Between them it is linear; with `bands` it
    * has steps, and the nearest color is the right one.
    */
-  colors: Uint8Array;
+  colors: OwnUint8Array;
   /** The color of triangles with a corner without a value; null where every corner has one. */
   gap: number | null;
   /** The values with shade 0 and 1. */
   range: [number, number];
   /** The levels, ascending, each once. */
-  levels: Float64Array;
+  levels: OwnFloat64Array;
   /** Level sets, then the Morse complex: later ones lie above earlier ones. */
   lines: Lines[];
   /** Critical points, one entry for each kind that there is. */
@@ -178,11 +189,11 @@ export interface Lines {
   /** What they are. */
   kind: 'levels' | 'descending' | 'ascending';
   /** x, y, z of each point, on the surface. */
-  points: Float32Array;
+  points: OwnFloat32Array;
   /** Where each line starts among the points, and their number. */
-  offsets: Uint32Array;
+  offsets: OwnUint32Array;
   /** 1 for each line that closes; its first point is not repeated. */
-  closed: Uint8Array;
+  closed: OwnUint8Array;
   stroke: Stroke;
 }
 
@@ -200,20 +211,20 @@ export interface Stroke {
 export interface Solids {
   kind: 'minima' | 'saddles' | 'maxima';
   /** One solid, about as large as the unit ball, its axis along y: x, y, z of each corner, unit normals, triangles. */
-  shape: { positions: Float32Array; normals: Float32Array; triangles: Uint32Array };
+  shape: { positions: OwnFloat32Array; normals: OwnFloat32Array; triangles: OwnUint32Array };
   color: number;
   /** The same solid, enlarged by `scale` and seen from its inside, makes a rim. */
   rim: { color: number; scale: number };
   /** What shines of the color without light, 0 to 1. */
   glow: number;
   /** The vertex of each instance. */
-  vertices: Uint32Array;
+  vertices: OwnUint32Array;
   /** On the surface, x, y, z. The solid stands `lift` radii above it. */
-  places: Float32Array;
+  places: OwnFloat32Array;
   /** Unit vectors along which the axes stand. */
-  axes: Float32Array;
+  axes: OwnFloat32Array;
   /** 1 where the surface is open, so that the axis is to be turned to the side that is looked at; else 0. */
-  bothSides: Uint8Array;
+  bothSides: OwnUint8Array;
   radius: number;
   lift: number;
 }

@@ -1,3 +1,5 @@
 const api = require('morse-smooth');
 
-import('./use.js').then(({ use }) => console.log(JSON.stringify({ ...use(api), keys: Object.keys(api).sort() })));
+Promise.all([import('./use.js'), import('./names.js')]).then(([{ use }, { namesOf }]) =>
+  console.log(JSON.stringify({ ...use(api), keys: namesOf(api) })),
+);

@@ -1,18 +1,21 @@
-// Alone, so that it can be seen what is read.
-const fs = require('node:fs');
-
-const { readFileSync } = fs;
-const read = [];
-fs.readFileSync = (path, ...rest) => {
-  read.push(/[^\\/]*$/.exec(String(path))[0]);
-  return readFileSync(path, ...rest);
+// Alone, so that it can be seen what is compiled, and when.
+const sizes = [];
+WebAssembly.Module = class extends WebAssembly.Module {
+  constructor(bytes) {
+    super(bytes);
+    sizes.push(bytes.byteLength);
+  }
 };
-const wasm = () => read.filter((name) => name.endsWith('.wasm'));
 
 const pictures = require('morse-smooth/snapshot');
-const alone = wasm();
-require('morse-smooth');
+const main = require('morse-smooth');
+const imported = [...sizes];
 
-import('./draw.js').then(({ draw }) =>
-  console.log(JSON.stringify({ ...draw(pictures), keys: Object.keys(pictures).sort(), alone, both: wasm() })),
+Promise.all([import('./draw.js'), import('./use.js'), import('./names.js')]).then(
+  ([{ draw }, { use }, { namesOf }]) => {
+    const result = draw(pictures);
+    const alone = [...sizes];
+    use(main);
+    console.log(JSON.stringify({ ...result, keys: namesOf(pictures), imported, alone, both: sizes }));
+  },
 );

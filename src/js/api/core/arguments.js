@@ -1,6 +1,6 @@
 // Arguments that only the functions of `morse-smooth` take, as its wasm module takes them.
 import { isRecord, toNumbers, toVertices } from '../../runtime/convert.js';
-import { invalidArgument } from '../../runtime/error.js';
+import { MorseSmoothError, invalidOption } from '../../runtime/error.js';
 
 /** Vertices of a mesh that has so many, or a rule that finds them. */
 export function toConstraints(value, vertexCount) {
@@ -32,4 +32,15 @@ export function toLevels(value, vertices) {
   const areGiven = saddles !== undefined && saddles !== null && saddles !== true;
   if (areGiven) settings.saddles = toVertices(saddles, 'saddles', vertices);
   return settings;
+}
+
+/** Refuses a number of channels that cannot be, or that so few values cannot have: the module counts in 32 bits. */
+export function checkChannels(settings, vertexCount, values) {
+  const channels = settings?.channels;
+  if (channels === undefined || channels === null) return;
+  if (!Number.isInteger(channels) || channels < 1) throw invalidOption('channels', 'a positive integer');
+  const [expected, actual] = [channels * vertexCount, values.length];
+  if (expected < 2 ** 32) return;
+  const message = `${expected} values are needed, one per vertex and channel, but there are ${actual}`;
+  throw new MorseSmoothError('LengthMismatch', message, { expected, actual });
 }

@@ -2,7 +2,7 @@ import { toNumbers, toOptions, toTriangles, toVertices } from '../../runtime/con
 import { invalidArgument } from '../../runtime/error.js';
 import { Handle } from '../../runtime/handles.js';
 import { watched } from '../../runtime/progress.js';
-import { toConstraints, toLevels } from './arguments.js';
+import { checkChannels, toConstraints, toLevels } from './arguments.js';
 import { core } from './module.js';
 
 /** For every mesh its handle and its topology, once that is known. (Private fields would be out of reach for other files.) */
@@ -123,7 +123,9 @@ export class TriMesh {
 
   constrainedVertices(values, constraints, options) {
     const numbers = toNumbers(values, 'values');
-    return watch(this, 'constrainedVertices', options, numbers, toConstraints(constraints, this.vertexCount));
+    const settings = toOptions(options);
+    checkChannels(settings, this.vertexCount, numbers);
+    return watch(this, 'constrainedVertices', settings, numbers, toConstraints(constraints, this.vertexCount));
   }
 
   smoothness(values, options) {

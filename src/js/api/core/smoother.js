@@ -1,7 +1,7 @@
 import { toNumbers, toOptions } from '../../runtime/convert.js';
 import { watched } from '../../runtime/progress.js';
 import { Handle } from '../../runtime/handles.js';
-import { toConstraints, toExtrema } from './arguments.js';
+import { checkChannels, toConstraints, toExtrema } from './arguments.js';
 import { familyOf, toRule } from './family.js';
 import { handleOf } from './mesh.js';
 import { core } from './module.js';
@@ -89,6 +89,7 @@ export class Smoother {
     if (isGiven(given?.weights)) given.weights = toNumbers(given.weights, 'weights');
     if (Array.isArray(given?.epsilonRange)) given.epsilonRange = [...given.epsilonRange];
     const numbers = toNumbers(values, 'values');
+    checkChannels(given, this.#vertexCount, numbers);
     const settings = withConstraints(this.#watching(given), this.#vertexCount);
     const raw = watched(settings, (settings) =>
       this.#handle.useAlone((raw) => raw.family(numbers, settings, asked, epsilons)),
@@ -106,6 +107,7 @@ export class Smoother {
   #smooth(method, values, options) {
     const given = toOptions(options);
     const numbers = toNumbers(values, 'values');
+    checkChannels(given, this.#vertexCount, numbers);
     const all = withRule(this.#watching(given));
     const settings = CONSTRAINED.includes(method) ? withConstraints(all, this.#vertexCount) : all;
     return watched(settings, (settings) => this.#handle.useAlone((raw) => raw.apply(method, numbers, settings)));
@@ -118,6 +120,7 @@ export function smooth(mesh, values, options) {
   const numbers = toNumbers(values, 'values');
   const count = mesh.vertexCount;
   const given = withRule(withExtrema(withConstraints(toOptions(options), count), count));
+  checkChannels(given, count, numbers);
   return watched(given, (settings) => source.use((rawMesh, glue) => glue.smooth(rawMesh, numbers, settings)));
 }
 

@@ -1,7 +1,7 @@
 import { toNumbers, toTriangles } from '../../runtime/convert.js';
 import { makeDisposable } from '../../runtime/handles.js';
 import { pictures } from './module.js';
-import { toPictureOptions } from './options.js';
+import { toPictureOptions } from './settings.js';
 
 export class Scene {
   #handle;

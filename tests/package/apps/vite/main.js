@@ -3,8 +3,10 @@ import initInline, * as inline from 'morse-smooth/inline';
 import wasmUrl from 'morse-smooth/morse_smooth_bg.wasm?url';
 import initFiles, * as files from 'morse-smooth/files';
 import initPictures, * as pictures from 'morse-smooth/snapshot';
+import * as remoteApi from 'morse-smooth/worker';
 import { draw } from '../draw.js';
 import { read } from '../read.js';
+import { remote } from '../remote.js';
 import { use } from '../use.js';
 
 const inWorker = () =>
@@ -20,7 +22,9 @@ async function all() {
   await initFiles();
   await initPictures();
   const { byteLength } = await (await fetch(wasmUrl)).arrayBuffer();
-  const oneError = [files, pictures].every(({ MorseSmoothError }) => MorseSmoothError === api.MorseSmoothError);
+  const oneError = [files, pictures, remoteApi].every(
+    ({ MorseSmoothError }) => MorseSmoothError === api.MorseSmoothError,
+  );
   return {
     page: use(api),
     inline: use(inline),
@@ -29,6 +33,7 @@ async function all() {
     oneError,
     worker: await inWorker(),
     byteLength,
+    remote: await remote(remoteApi),
   };
 }
 

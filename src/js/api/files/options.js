@@ -1,0 +1,8 @@
+/** The options of every function, and of those options that are objects. (A test compares them with what the functions take.) */
+export const options = {
+  readMesh: 'format fileName weld',
+  readField: 'format fileName column',
+  readTable: 'format fileName',
+  writeMesh: 'format fields binary',
+  weld: 'tolerance',
+};
