@@ -4,8 +4,8 @@ const SOURCES = 'a URL, string, Request, Response, BufferSource or WebAssembly.M
 
 /**
  * The `init` of a module's entries, `(options, address, embedded)`: loads it once, from `options.wasm`, or else from what `address`
- * returns, or else from what `embedded` imports; either may be null. After a failure it can be called again, and so it can where the instance was lost;
- * the code is at hand then.
+ * returns, or else from what `embedded` imports; either of these may be null. After a failure it can be called again, and so it can
+ * where the instance was lost; the code is at hand then.
  */
 export function loaderOf(module) {
   let loading = null;

@@ -211,8 +211,9 @@ export class Smoother {
    *   `IndefinitePreconditioner` or `NotConverged` where ε is too small for the mesh; `OutOfMemory` where the mesh is too large
    *   for the solver chosen
    */
-  tikhonov(values: Numbers, options: TikhonovOptions & ChannelOptions & ProgressOptions): Smoothed;
+  // The last one is that of which the compiler speaks where none fits.
   tikhonov(values: Numbers, options: WavelengthOptions & ChannelOptions & ProgressOptions): Smoothed;
+  tikhonov(values: Numbers, options: TikhonovOptions & ChannelOptions & ProgressOptions): Smoothed;
 
   /**
    * Keeps the values of the constrained vertices to the last bit, and finds smooth ones for the others. With stars, all
@@ -255,9 +256,9 @@ export class Smoother {
    *   `to`) where kept values, the range or the prominence contradict each other; `ConstantField`; `InapplicableOption` for several
    *   channels and for `missing: "fill"`; `NotConverged`
    */
-  prescribe(values: Numbers, options: PrescribeOptions & ProgressOptions): Prescribed;
   prescribe(values: Numbers, options: PrescribeByWavelengthOptions & ProgressOptions): Prescribed;
   prescribe(values: Numbers, options: PrescribeByLeastSquaresOptions & ProgressOptions): Prescribed;
+  prescribe(values: Numbers, options: PrescribeOptions & ProgressOptions): Prescribed;
 
   /**
    * The smoothed fields of all ε at once: six or seven factorisations, after which each ε takes milliseconds. Only one call of the smoother
@@ -377,13 +378,13 @@ export interface SolverReport {
  * Smooths once. For several fields, or for several ε, a {@link Smoother} is quicker. The method is `"tikhonov"`, or
  * `"leastSquares"` where there are constraints, unless named.
  */
-export function smooth(mesh: TriMesh, values: Numbers, options?: SmoothOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByLeastSquaresOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByInterpolationOptions): Smoothed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByPrescriptionOptions): Prescribed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByWavelengthPrescriptionOptions): Prescribed;
 export function smooth(mesh: TriMesh, values: Numbers, options: SmoothByConstrainedPrescriptionOptions): Prescribed;
+export function smooth(mesh: TriMesh, values: Numbers, options?: SmoothOptions): Smoothed;
 
 /** What {@link smooth} takes. */
 export interface SmoothOptions extends SmootherOptions, Omit<TikhonovOptions, 'epsilon'>, ChannelOptions {

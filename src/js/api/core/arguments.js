@@ -39,6 +39,7 @@ export function checkChannels(settings, vertexCount, values) {
   const channels = settings?.channels;
   if (channels === undefined || channels === null) return;
   if (!Number.isInteger(channels) || channels < 1) throw invalidOption('channels', 'a positive integer');
+  if (channels >= 2 ** 32) throw invalidOption('channels', 'a positive integer below 2³²');
   const [expected, actual] = [channels * vertexCount, values.length];
   if (expected < 2 ** 32) return;
   const message = `${expected} values are needed, one per vertex and channel, but there are ${actual}`;
