@@ -26,7 +26,7 @@ pub struct PersistencePair {
     /// The minimum or maximum.
     pub extremum: u32,
     /// The vertex at which its component ends: a saddle, or an extremum of the other kind whose link is in several pieces
-    /// (where sheets hang together in a vertex, or at a boundary).
+    /// (where sheets hang together in a vertex).
     pub saddle: u32,
     /// Minimum or maximum.
     pub kind: CriticalKind,
