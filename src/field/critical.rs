@@ -127,6 +127,11 @@ pub struct DeltaOptions {
 /// paper's number of changes of sign. At δ > 0 see [`LinkReading`] and [`ExtremumRule`]; where the link is no cycle,
 /// vertices within δ are dropped first for both readings. Isolated vertices are not critical.
 ///
+/// So every vertex is of one kind, in all functions: where sheets hang together in a vertex with nothing below it, it is a
+/// minimum, in however many pieces its upper link is, and never counted as a saddle. Components of superlevel sets join there all
+/// the same, so [`persistence`](super::persistence) and the Morse complex name it as the place where they do: as the `saddle` of a
+/// pair, of a line, and of nodes beside that of the minimum. (Maxima likewise.)
+///
 /// # Properties
 /// One pass over the triangles. With the strict rule, sets for growing δ are nested. On a constant field every δ > 0
 /// gives no critical point.

@@ -1,7 +1,7 @@
 //! All columns of a table at once.
 
 use super::assembly::Names;
-use super::scan::{Scanner, parse_number, push, without_byte_order_mark};
+use super::scan::{FIRST_ROOM, Scanner, parse_number, push, reserve, without_byte_order_mark};
 use super::table::{FieldFormat, NPY, Records, SEPARATORS, first_line, parse_cell, separator};
 use crate::error::{Diagnostic, ParseError};
 use crate::support::memory;
@@ -63,7 +63,7 @@ fn sniff(bytes: &[u8], line: &[u8]) -> FieldFormat {
 
 fn between_separators(bytes: &[u8], separator: u8) -> Result<Table, ParseError> {
     let mut records = Records::new(bytes, separator);
-    let mut columns = Columns::default();
+    let mut columns = Columns::new(bytes.len());
     while records.advance()? {
         let cells = (0..records.len()).filter_map(|place| records.cell(place));
         if !columns.add(cells, &|cell| parse_cell(cell, separator))? {
@@ -75,7 +75,7 @@ fn between_separators(bytes: &[u8], separator: u8) -> Result<Table, ParseError> 
 
 fn between_blanks(bytes: &[u8]) -> Result<Table, ParseError> {
     let mut text = Scanner::new(bytes).with_comments();
-    let mut columns = Columns::default();
+    let mut columns = Columns::new(bytes.len());
     let mut words = Vec::new();
     while text.next_row() {
         words.clear();
@@ -101,15 +101,20 @@ struct Column {
     has_numbers: bool,
 }
 
-#[derive(Default)]
 struct Columns {
     all: Vec<Column>,
     has_rows: bool,
+    /// The bytes of the file: a cell has at least one, what separates it from the next.
+    bytes: usize,
 }
 
 type Parse<'a> = &'a dyn Fn(&[u8]) -> Option<f64>;
 
 impl Columns {
+    fn new(bytes: usize) -> Self {
+        Self { all: Vec::new(), has_rows: false, bytes }
+    }
+
     /// Takes a row; false where it has not as many cells as the first. Cells too many may be empty.
     fn add<'a>(&mut self, cells: impl Iterator<Item = &'a [u8]>, parse: Parse<'_>) -> Result<bool, ParseError> {
         if !self.has_rows {
@@ -120,6 +125,8 @@ impl Columns {
             }
             return Ok(true);
         }
+        // Where there are very many columns there are few rows, and what vectors grow by at first would be most of the memory.
+        let most_rows = self.bytes / self.all.len().max(1) + 1;
         let mut count = 0;
         for cell in cells {
             let Some(column) = self.all.get_mut(count) else {
@@ -128,7 +135,7 @@ impl Columns {
                 }
                 return Ok(false);
             };
-            column.take(cell, parse)?;
+            column.take(cell, parse, most_rows)?;
             count += 1;
         }
         Ok(count == self.all.len())
@@ -178,8 +185,11 @@ impl Columns {
 }
 
 impl Column {
-    fn take(&mut self, cell: &[u8], parse: Parse<'_>) -> Result<(), ParseError> {
+    fn take(&mut self, cell: &[u8], parse: Parse<'_>, most_rows: usize) -> Result<(), ParseError> {
         let Some(values) = &mut self.values else { return Ok(()) };
+        if values.capacity() == 0 && most_rows < FIRST_ROOM {
+            reserve(values, most_rows)?;
+        }
         match parse(cell) {
             Some(number) => {
                 self.has_numbers = true;

@@ -7,6 +7,9 @@ use lexical_parse_float::FromLexical;
 use crate::error::ParseError;
 use crate::support::memory;
 
+/// Elements that a vector has room for when it grows for the first time.
+pub(super) const FIRST_ROOM: usize = 64;
+
 /// Longest piece of the input that an error message repeats.
 const EXCERPT: usize = 40;
 
@@ -305,7 +308,7 @@ pub(super) fn room<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), Pars
 #[cold]
 #[inline(never)]
 fn grow<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), ParseError> {
-    reserve(vector, additional.max(vector.len() / 2).max(64))
+    reserve(vector, additional.max(vector.len() / 2).max(FIRST_ROOM))
 }
 
 /// Adds an element, or fails where there is no memory for it.

@@ -72,6 +72,9 @@ fn a_table_of_errors() {
         (off, "3 0 1 2", "3 0 1 4294967296", "FaceIndexOutOfBounds"),
         (off, "1 0 0", "1 0", "InvalidSyntax"),
         (off, "1 0 0", "1 zero 0", "InvalidNumber"),
+        // A keyword is nothing but the keyword, or a count follows at once.
+        (off, "OFF\n", "OFFSET ", "UnknownFormat"),
+        (off, "OFF\n", "OFF-", "UnknownFormat"),
         (obj, "v 1 0 0", "v 1 0", "InvalidSyntax"),
         (obj, "v 1 0 0", "v 1 0 0.0.0", "InvalidNumber"),
         (obj, "v 1 0 0", "", "FaceIndexOutOfBounds"),
@@ -115,6 +118,23 @@ fn a_table_of_errors() {
         assert!(start.elapsed().as_millis() < 200, "{from:?} -> {to:?} took {:?}", start.elapsed());
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn text_that_is_too_short_for_its_numbers_is_refused_before_there_is_room_for_them() {
+    // Ten vertices take 59 bytes, a blank or line end after each number but the last.
+    let head = "ply\nformat ascii 1.0\nelement vertex 10\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for lines in [0, 5, 9] {
+        let file = format!("{head}{}", "1 1 1\n".repeat(lines));
+        let Err(ParseError::Truncated { expected, available }) = read_mesh(file.as_bytes(), &ReadOptions::default())
+        else {
+            panic!("{lines} lines");
+        };
+        assert_eq!((expected, available), (59, 6 * lines as u64));
+    }
+    let whole = format!("{head}{}3 0 1 2\n", "1 1 1\n".repeat(10));
+    assert!(read_mesh(whole.as_bytes(), &ReadOptions::default()).is_ok());
 }
 
 #[test]
@@ -191,9 +211,45 @@ fn long_lines_and_many_names_do_not_hang() {
     let data = read_mesh(ply.as_bytes(), &ReadOptions::default()).expect("many fields of one name");
     assert_eq!(data.fields.len(), 20_000);
     assert!(start.elapsed().as_secs() < 5);
+    many_columns();
     // Backslashes that join all lines of a file.
     let joined = "f 1 2 3 \\\n".repeat(100_000);
     assert_eq!(code(joined), "InvalidNumber");
+}
+
+/// As many that looking at all earlier ones for each would take minutes.
+fn many_columns() {
+    const COUNT: usize = 300_000;
+    let start = Instant::now();
+    let three = |row: &str| format!("0 0 0{row}\n1 0 0{row}\n0 1 0{row}\n");
+    let ones = " 1".repeat(COUNT);
+    let mut ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n".to_owned();
+    (0..COUNT).for_each(|i| ply.push_str(&format!("property float a{i}\n")));
+    ply.push_str("element face 1\nproperty list uchar int vertex_indices\nend_header\n");
+    ply.push_str(&three(&ones));
+    ply.push_str("3 0 1 2\n");
+    let vtk = format!(
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0\n1 0 0\n0 1 0\n\
+        POLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nFIELD f 1\na {COUNT} 3 float\n{ones}{ones}{ones}\n"
+    );
+    for file in [ply, vtk] {
+        let data = read_mesh(file.as_bytes(), &ReadOptions::default()).expect("many fields");
+        assert_eq!(data.fields.len(), COUNT);
+        assert!(data.fields.iter().all(|(_, values)| *values == [1.0; 3]));
+    }
+    // Names of a table, of which half are there twice.
+    let mut csv: String = (0..COUNT).map(|i| format!("c{},", i % (COUNT / 2))).collect();
+    csv.push_str("z\n");
+    for _ in 0..3 {
+        csv.push_str(&"1,".repeat(COUNT));
+        csv.push_str("1\n");
+    }
+    let table = read_table(csv.as_bytes(), None).expect("many columns");
+    assert_eq!((table.columns.len(), table.warnings.len()), (COUNT + 1, COUNT / 2));
+    // Few rows take little room.
+    assert!(table.columns.iter().all(|(_, values)| values.len() == 3 && values.capacity() <= 16));
+    assert!(start.elapsed().as_secs() < 60);
 }
 
 /// Valid files of every format.

@@ -321,6 +321,20 @@ fn levels_by_number_and_refusals() {
     assert_eq!(evenly_spaced_levels(&grid, &f, 3).unwrap(), [-1.0, 0.0, 1.0]);
     assert!(evenly_spaced_levels(&grid, &f, 0).unwrap().is_empty());
     assert!(evenly_spaced_levels(&grid, &[7.0; 25], 3).unwrap().is_empty());
+    // Between neighbouring doubles there is no level, and between others each only once.
+    for steps in [1, 2, 3, 7] {
+        let top = f64::from_bits(1.5_f64.to_bits() + steps);
+        let close: Vec<f64> = f.iter().map(|&x| if x > 0.0 { top } else { 1.5 }).collect();
+        for count in [1, 2, 3, 50, 10_000] {
+            let levels = evenly_spaced_levels(&grid, &close, count).unwrap();
+            assert!(levels.is_sorted_by(|a, b| a < b), "{count} in {steps} steps: {levels:?}");
+            assert!(levels.iter().all(|&level| 1.5 < level && level < top));
+            assert!(levels.len() <= count && levels.len() < steps as usize);
+            if count >= 50 {
+                assert_eq!(levels.len(), steps as usize - 1, "{count} in {steps} steps");
+            }
+        }
+    }
     // Isolated vertices take no part in the range.
     let lonely = mesh(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [5., 5., 5.]], &[[0, 1, 2]]);
     assert_eq!(evenly_spaced_levels(&lonely, &[0., 1., 4., 100.], 1).unwrap(), [2.0]);

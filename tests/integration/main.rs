@@ -44,6 +44,7 @@ mod ordering;
 mod persistence;
 #[cfg(feature = "render")]
 mod pictures;
+mod pinches;
 mod prescribe;
 mod prescribe_data;
 mod prescribe_peer;

@@ -1,9 +1,11 @@
 //! Persistence against the reduction of the whole boundary matrix, and the identities that hold on every complex.
 
+use core::ops::ControlFlow;
 use std::collections::BTreeSet;
 
-use morse_smooth::field::{CriticalKind, DeltaOptions, PersistenceDiagram};
+use morse_smooth::field::{self, CriticalKind, DeltaOptions, PersistenceDiagram, ScalarField};
 use morse_smooth::mesh::{TriMesh, shapes};
+use morse_smooth::{Progress, Watch};
 use proptest::prelude::*;
 
 use crate::analyses::{critical_points, persistence};
@@ -162,6 +164,34 @@ proptest! {
             check("surface", &surface, &tied(surface.vertex_count(), seed ^ 2, f64::from(steps)));
         }
     }
+}
+
+#[test]
+fn dense_complexes_agree_with_the_boundary_matrix() {
+    for (seed, n, triangles) in [(1, 12, 60), (2, 12, 120), (3, 14, 90), (4, 16, 100), (5, 20, 150)] {
+        let complex = random_complex(seed, n, triangles);
+        for steps in [1.0, 4.0, 100.0] {
+            let values = tied(n as usize, seed ^ 1, steps);
+            check(&format!("{triangles} triangles on {n} vertices, {steps} steps"), &complex, &values);
+        }
+    }
+}
+
+#[test]
+fn dense_complexes_take_little_more_work_than_they_have_triangles() {
+    // One triple in twenty of all: every two vertices share several triangles, and loops at a vertex bound soon after.
+    let complex = random_complex(5, 240, 113_764);
+    let values = noise(240, 7);
+    let mut asked = 0;
+    let mut count = |_: Progress| {
+        asked += 1;
+        ControlFlow::Continue(())
+    };
+    let diagram = field::persistence(&ScalarField::new(&complex, &values).unwrap(), &Watch::new(&mut count)).unwrap();
+    // With so many triangles every loop bounds.
+    assert!(diagram.essential_saddles.is_empty());
+    // The watcher is asked after every few milliseconds of work. Reducing coboundaries took thousands of these.
+    assert!((1..400).contains(&asked), "{asked}");
 }
 
 #[test]

@@ -152,6 +152,29 @@ fn whole_numbers_are_cut_at_exactly_their_persistence() {
 }
 
 #[test]
+fn the_tilt_keeps_to_the_threshold_where_heights_leave_room_for_it() {
+    // A few heights, each 64 doubles above the one below, and pairs that are exactly as persistent as the threshold. What rises by
+    // all of it has no room above for the tilt; it starts so much lower.
+    let step = 64.0 * f64::EPSILON;
+    let threshold = 2.0 * step;
+    for surface in [shapes::grid(12, 12).unwrap(), shapes::grid(7, 6).unwrap(), shapes::torus(9, 7, 0.3).unwrap()] {
+        let mut cut = 0;
+        for seed in 0..40 {
+            let mut random = Random::new(seed);
+            let heights: Vec<f64> =
+                (0..surface.vertex_count()).map(|_| 1.0 + step * (4.0 * random.uniform()).floor()).collect();
+            let pairs = persistence(&surface, &heights).unwrap().pairs;
+            cut += usize::from(pairs.iter().any(|pair| pair.persistence == threshold));
+            let simple = simplify(&surface, &heights, Keep::Above(Threshold::Absolute(threshold))).unwrap();
+            assert_eq!(extrema(&surface, &simple), above(&surface, &heights, threshold), "seed {seed}");
+            let change = largest_change(&heights, &simple);
+            assert!(change <= threshold, "{} doubles too many, seed {seed}", (change - threshold) / f64::EPSILON);
+        }
+        assert!(cut > 10, "{cut} fields have such pairs");
+    }
+}
+
+#[test]
 fn a_smooth_field_is_left_alone() {
     let torus = shapes::torus(60, 40, 0.0).unwrap();
     let height: Vec<f64> = torus.positions().chunks_exact(3).map(|p| p[0] + 0.1 * p[2]).collect();

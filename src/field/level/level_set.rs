@@ -38,7 +38,8 @@ impl OnMesh for LevelSets {
     }
 }
 
-/// `count` levels that cut the range of the values into equal parts, without its ends; none for a constant field.
+/// `count` levels that cut the range of the values into equal parts, without its ends; none for a constant field. They are
+/// different ones, in ascending order: where the range holds fewer doubles between its ends, there are fewer levels.
 ///
 /// # Errors
 /// `InvalidOption` where `count` is above 10,000.
@@ -51,7 +52,10 @@ pub fn evenly_spaced_levels(field: &ScalarField<'_>, count: usize) -> Result<Vec
     if range.length() <= 0.0 {
         return Ok(Vec::new());
     }
-    Ok((1..=count).map(|k| range.min + range.length() * (k as f64 / (count + 1) as f64)).collect())
+    let level = |k: usize| range.min + range.length() * (k as f64 / (count + 1) as f64);
+    let mut levels: Vec<f64> = (1..=count).map(level).filter(|&level| range.min < level && level < range.max).collect();
+    levels.dedup();
+    Ok(levels)
 }
 
 /// Traces the level sets {f = level} of the piecewise linear field.

@@ -10,7 +10,8 @@ use crate::mesh::LinkKind;
 use crate::support::pieces::{pieces, ranges};
 use crate::support::watch::{Phase, Watch};
 
-/// An extremum, or a simple saddle: one of multiplicity k is k nodes.
+/// An extremum, or a simple saddle: one of multiplicity k is k nodes. An extremum whose link is in k + 1 pieces is the node of an
+/// extremum, and k simple saddles beside, as components join there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MorseNode {
     /// Its vertex.

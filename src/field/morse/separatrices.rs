@@ -51,6 +51,9 @@ impl OnMesh for MorseComplex {
 
 /// Traces the steepest paths from each saddle: one for each component of its lower and of its upper link.
 ///
+/// An extremum whose link is in several pieces is an extremum, as [`critical_points`](crate::field::critical_points) says, but
+/// components join there: it has lines as a saddle has, to the other side alone.
+///
 /// # Definition
 /// A path starts with the steepest edge into its component of the link, and goes on along the steepest edge of every
 /// vertex, (difference of values) / length, until there is none. Of equally steep edges the one to the lowest (highest)

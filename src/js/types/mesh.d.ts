@@ -107,8 +107,7 @@ export class TriMesh {
 
   /**
    * Pairs every extremum with the saddle at which its component of the sublevel (superlevel) set joins that of a lower (higher)
-   * extremum. The most persistent pair comes first. Slower where sheets meet, and slow on soups in which most edges have many
-   * triangles.
+   * extremum. The most persistent pair comes first. Slower where sheets meet.
    */
   persistence(values: Numbers, options?: AnalysisOptions): PersistencePairs;
 
