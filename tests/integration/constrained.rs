@@ -287,9 +287,9 @@ fn one_constraint_makes_a_component_constant() {
     for (mesh, vertex) in [(&thin, 1), (&thinner, 0), (&sphere, 7)] {
         let f = field(mesh);
         let n = mesh.vertex_count() as f64;
-        for operator in [Operator::Paper, Operator::FiniteElement] {
+        for operator in [Operator::Paper, Operator::Fem] {
             for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue] {
-                if operator == Operator::FiniteElement && weights != LaplacianWeights::Cotangent {
+                if operator == Operator::Fem && weights != LaplacianWeights::Cotangent {
                     continue;
                 }
                 let options = SmootherOptions { operator, weights, bounds: true, ..SmootherOptions::default() };
