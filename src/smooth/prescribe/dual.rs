@@ -91,7 +91,7 @@ pub(super) fn minimize(
             x.iter_mut().zip(change).for_each(|(x, d)| *x += d);
             solves += 1;
         }
-        if !(unbalanced < UNBALANCED) {
+        if unbalanced.is_nan() || unbalanced >= UNBALANCED {
             return Ok(None);
         }
         lacking = steps.lacking(&x, tolerance);
@@ -241,7 +241,7 @@ impl Binding {
                 let rest = self.gram[self.active[i]][self.active[j]] - dot;
                 lower[i][j] = if i > j { rest / lower[j][j] } else { rest.sqrt() };
             }
-            if !(lower[i][i] > 0.0) {
+            if lower[i][i].is_nan() || lower[i][i] <= 0.0 {
                 return None;
             }
             let dot: f64 = (0..i).map(|k| lower[i][k] * x[k]).sum();
