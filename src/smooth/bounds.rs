@@ -135,8 +135,11 @@ fn finite(factor: f64) -> Option<f64> {
     factor.is_finite().then(|| factor.max(1.0))
 }
 
+/// What rounding adds to how far values move that are moved exactly.
+const ROUNDING: f64 = 1e-8;
+
 /// The bound of the whole, where besides what it is for, `constant` vertices take the value of one: these are moved as one is, √`constant`
 /// times as far in all.
 pub(super) fn with_constants(bound: Option<f64>, constant: usize) -> Option<f64> {
-    bound.map(|bound| bound.max((constant as f64).sqrt()))
+    bound.map(|bound| bound.max((constant as f64).sqrt() * (1.0 + ROUNDING)))
 }

@@ -65,7 +65,7 @@ fn interpolations_agree_with_dense_algebra() {
                     let wrong = error(&f, &found.values, &expected);
                     assert!(wrong < 1e-10, "{context}: {wrong:e}");
                     let solver = &found.reports[0].solver;
-                    assert_eq!(solver.unknowns, reference.free(&set).len(), "{context}");
+                    assert_eq!(solver.unknowns, reference.solved(&reference.free(&set), &set), "{context}");
                     assert_eq!(
                         solver.route.name(),
                         if solver.unknowns == 0 { "none" } else { "cholesky" },
@@ -99,7 +99,8 @@ fn least_squares_agree_with_dense_algebra() {
                     let expected = reference.least_squares(&f, &pull, epsilon);
                     let wrong = error(&f, &found.values, &expected);
                     assert!(wrong < 1e-10, "{context}: {wrong:e}");
-                    assert_eq!(found.reports[0].solver.unknowns, reference.reached(&set).len(), "{context}");
+                    let solved = reference.solved(&reference.reached(&set), &set);
+                    assert_eq!(found.reports[0].solver.unknowns, solved, "{context}");
                 }
             }
         }
@@ -304,7 +305,7 @@ fn one_constraint_makes_a_component_constant() {
                     assert!(result.values.iter().all(|x| x.to_bits() == f[vertex as usize].to_bits()), "constant");
                     // All move as far as the one does.
                     let factor = result.reports[0].perturbation_factor.expect("a factor");
-                    assert!((factor - n.sqrt()).abs() <= 1e-12 * n, "{factor}");
+                    assert!((n.sqrt()..n.sqrt() + 1e-6).contains(&factor), "{factor}");
                 }
             }
         }
@@ -363,7 +364,7 @@ fn large_epsilons_converge_by_conjugate_gradients() {
                 let expected = factored.r().solve_upper_triangular(&image).expect("a regular matrix");
                 for v in 0..n {
                     assert!(
-                        (found.values[v] - expected[v]).abs() <= 1e-6,
+                        (found.values[v] - expected[v]).abs() <= 1e-5,
                         "{weights:?}, ε = {epsilon:e}, vertex {v}: {} {}",
                         found.values[v],
                         expected[v]

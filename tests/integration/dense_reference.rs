@@ -105,6 +105,13 @@ impl Reference {
         self.reached(constrained).into_iter().filter(|&v| !constrained.contains(&(v as u32))).collect()
     }
 
+    /// Those of some vertices that are solved for: not those of components with a single constrained vertex, whose value they take.
+    pub(crate) fn solved(&self, vertices: &[usize], constrained: &[u32]) -> usize {
+        let components: Vec<usize> = constrained.iter().filter_map(|&v| self.component[v as usize]).collect();
+        let is_single = |component| components.iter().filter(|&&c| Some(c) == component).count() == 1;
+        vertices.iter().filter(|&&v| !is_single(self.component[v])).count()
+    }
+
     /// The rows that an energy asks for, on the free columns, and the square roots of their weights.
     pub(crate) fn rows(&self, energy: Energy, free: &[usize]) -> (Vec<usize>, Vec<f64>) {
         match energy {

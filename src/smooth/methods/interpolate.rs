@@ -1,5 +1,7 @@
 //! Interpolation of constrained values, eq. (6) of \[Patane09\].
 
+use std::sync::Arc;
+
 use super::regularized::solutions;
 use super::{constrained, settings};
 use crate::error::Result;
@@ -63,8 +65,9 @@ pub(in crate::smooth) fn start(
     let mut stages = schedule.stages(watch);
     let (set, components) = constrained(input, &options.constraints, &mut stages)?;
     let mut free = components.remaining(&operators.active);
-    let constant = leave_out_constant_components(&operators.active, &set, &mut free);
     free.retain(|v| set.vertices.binary_search(v).is_err());
+    let all_free = free.clone();
+    let constant = leave_out_constant_components(&operators.active, &set, &mut free);
     let system = systems.reduced(operators, options.energy, &free, watch)?;
     let constrained = set.vertices.clone();
     let about = About {
@@ -74,7 +77,8 @@ pub(in crate::smooth) fn start(
         constraints: Some(set),
         unconstrained: Some(components),
     };
-    let mut procedure = Interpolation { operators, system, constrained, constant, certifier: None };
+    let mut procedure =
+        Interpolation { operators, system, constrained, free: all_free.into(), constant, certifier: None };
     run(input, &about, &mut procedure, stages)
 }
 
@@ -83,6 +87,8 @@ struct Interpolation<'a> {
     system: &'a mut ReducedSystem,
     /// The constrained vertices, ascending.
     constrained: Vec<u32>,
+    /// All vertices that are free, ascending.
+    free: Arc<[u32]>,
     /// The vertices of the largest component with a single constrained one, which are not solved for.
     constant: usize,
     /// For the harmonic energy, once a channel is solved for.
@@ -98,7 +104,7 @@ impl Procedure for Interpolation<'_> {
         if self.system.energy() == Energy::Harmonic && self.certifier.is_none() {
             let Operators { mesh, laplacian, .. } = self.operators;
             memory::ensure(2 * mesh.vertex_count() as u64 + 16 * laplacian.nnz() as u64)?;
-            self.certifier = Some(Certifier::new(mesh.connectivity(), laplacian, self.system.free()));
+            self.certifier = Some(Certifier::new(mesh.connectivity(), laplacian, &self.free));
         }
         Ok(Found { solutions: solutions(self.system.free(), solved), perturbation_factor })
     }
