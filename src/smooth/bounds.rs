@@ -136,7 +136,7 @@ fn finite(factor: f64) -> Option<f64> {
 }
 
 /// What rounding adds to how far values move that are moved exactly.
-const ROUNDING: f64 = 1e-8;
+const ROUNDING: f64 = 1e-6;
 
 /// The bound of the whole, where besides what it is for, `constant` vertices take the value of one: these are moved as one is, √`constant`
 /// times as far in all.

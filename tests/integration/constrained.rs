@@ -305,7 +305,7 @@ fn one_constraint_makes_a_component_constant() {
                     assert!(result.values.iter().all(|x| x.to_bits() == f[vertex as usize].to_bits()), "constant");
                     // All move as far as the one does.
                     let factor = result.reports[0].perturbation_factor.expect("a factor");
-                    assert!((n.sqrt()..n.sqrt() + 1e-6).contains(&factor), "{factor}");
+                    assert!((n.sqrt()..n.sqrt() * (1.0 + 1e-5)).contains(&factor), "{factor}");
                 }
             }
         }
@@ -337,7 +337,7 @@ fn one_constraint_makes_a_component_constant() {
 fn large_epsilons_converge_by_conjugate_gradients() {
     let grid = shapes::grid(3, 3).expect("a grid");
     let sphere = shapes::sphere(2).expect("a sphere");
-    for (mesh, vertices) in [(&grid, vec![0, 5, 6]), (&sphere, vec![0, 11, 50, 90, 140])] {
+    for (mesh, vertices) in [(&grid, vec![0, 5, 6]), (&sphere, vec![0, 11, 25, 40, 60])] {
         let f = field(mesh);
         for weights in [LaplacianWeights::Cotangent, LaplacianWeights::MeanValue, LaplacianWeights::NormalizedCotangent]
         {
