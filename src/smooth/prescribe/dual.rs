@@ -14,8 +14,11 @@ use crate::support::watch::{Phase, Watch};
 
 /// It is tried where the smoothed field lacks no more steps than these, and given up where more have to be looked at: from there on
 /// the interior-point method takes less time.
-const MOST_LACKING: usize = 96;
-const MOST_STEPS: usize = 160;
+const MOST_LACKING: usize = 64;
+const MOST_STEPS: usize = 128;
+/// Where a round leaves more lacking than half of all that were looked at, and a few, there is no end in sight.
+const HALF: usize = 2;
+const FEW: usize = 4;
 /// So many rounds are usual; progress is told as if there were so many.
 const USUAL_ROUNDS: usize = 4;
 /// And so many are the most.
@@ -64,7 +67,9 @@ pub(super) fn minimize(
     let mut x = start.to_vec();
     let mut solves = 0;
     for round in 1..=MOST_ROUNDS {
-        if binding.steps.len() + lacking.len() > MOST_STEPS {
+        let looked_at = binding.steps.len();
+        let grows = round > 1 && lacking.len() > looked_at / HALF + FEW;
+        if grows || looked_at + lacking.len() > MOST_STEPS {
             return Ok(None);
         }
         plan.begin(0)?;
