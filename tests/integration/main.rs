@@ -47,6 +47,7 @@ mod pictures;
 mod pinches;
 mod prescribe;
 mod prescribe_data;
+mod prescribe_dense;
 mod prescribe_peer;
 mod readme;
 mod refusals;
