@@ -1,12 +1,4 @@
-// Alone, so that it can be seen what is compiled, and when.
-const sizes = [];
-WebAssembly.Module = class extends WebAssembly.Module {
-  constructor(bytes) {
-    super(bytes);
-    sizes.push(bytes.byteLength);
-  }
-};
-
+const sizes = require('./compiled.cjs');
 const files = require('morse-smooth/files');
 const main = require('morse-smooth');
 const imported = [...sizes];
