@@ -17,7 +17,6 @@ use crate::support::watch::{Phase, Watch};
 const MOST_LACKING: usize = 64;
 const MOST_STEPS: usize = 128;
 /// Where a round leaves more lacking than half of all that were looked at, and a few, there is no end in sight.
-const HALF: usize = 2;
 const FEW: usize = 4;
 /// So many rounds are usual; progress is told as if there were so many.
 const USUAL_ROUNDS: usize = 4;
@@ -68,7 +67,7 @@ pub(super) fn minimize(
     let mut solves = 0;
     for round in 1..=MOST_ROUNDS {
         let looked_at = binding.steps.len();
-        let grows = round > 1 && lacking.len() > looked_at / HALF + FEW;
+        let grows = round > 1 && lacking.len() > looked_at / 2 + FEW;
         if grows || looked_at + lacking.len() > MOST_STEPS {
             return Ok(None);
         }
@@ -108,7 +107,8 @@ pub(super) fn minimize(
                 .zip(&binding.multipliers)
                 .map(|(&k, z)| z * (rises[k] - steps.steps[k].least).abs())
                 .sum();
-            let gap = 2.0 * product / quadratic.energy(&x).max(f64::MIN_POSITIVE);
+            // Nothing summed up is −0.
+            let gap = 2.0 * product.abs() / quadratic.energy(&x).max(f64::MIN_POSITIVE);
             plan.finish()?;
             return Ok(Some(Optimum { x, route: PrescribeRoute::Dual, gap, unbalanced, iterations: round, solves }));
         }
