@@ -1,13 +1,14 @@
 // Runs the sections of `npm test`, all of them, and sums up.
 import { existsSync, readFileSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
+import { join, relative } from 'node:path';
 import { Problem, heading, say, seconds } from './log.mjs';
-import { artifacts, inRoot } from './paths.mjs';
+import { artifacts, inRoot, root } from './paths.mjs';
 import { execute } from './run.mjs';
 
 /**
- * Runs sections `{ name, needs?, run }` in their order. `run` returns `{ passed, failed }` or throws a problem, which counts as
- * one failure; a section whose `needs` failed is not run, which counts as one too.
+ * Runs sections `{ name, needs?, run }` in their order. `run` returns `{ passed, failed, failures? }`, the last being the names
+ * of what failed, or throws a problem, which counts as one failure; a section whose `needs` failed is not run, which counts as
+ * one too.
  */
 export async function runSections(sections) {
   const results = new Map();
@@ -34,10 +35,14 @@ async function attempt(run) {
   }
 }
 
-/** Prints a line for each section and the totals on the last line; returns the number of failures. */
+/**
+ * Prints what failed, a line for each section and the totals on the last line: whoever has only the end of a long log sees what
+ * to run again. Returns the number of failures.
+ */
 function summarise(results) {
   heading('Summary');
   const total = { passed: 0, failed: 0 };
+  for (const { failures = [] } of results.values()) for (const failure of failures) console.log(`FAILED: ${failure}`);
   for (const [name, { passed, failed, time }] of results) {
     total.passed += passed;
     total.failed += failed;
@@ -50,11 +55,12 @@ function summarise(results) {
 
 /** Runs commands that have no tests to count: each is one. */
 export async function runChecks(checks) {
-  const counts = { passed: 0, failed: 0 };
+  const counts = { passed: 0, failed: 0, failures: [] };
   for (const { name, command, parameters } of checks) {
     const since = performance.now();
     const { code } = await execute(command, parameters, { show: true });
     counts[code === 0 ? 'passed' : 'failed']++;
+    if (code !== 0) counts.failures.push(name);
     say(`${name}: ${code === 0 ? 'ok' : 'FAILED'} (${seconds(since)})`);
   }
   return counts;
@@ -66,7 +72,8 @@ export function rustResults({ code, output }) {
   const results = [...plain.matchAll(/^test result: .*? (\d+) passed; (\d+) failed/gm)];
   const sum = (group) => results.reduce((total, match) => total + Number(match[group]), 0);
   // A failure to compile has no result line.
-  return { passed: sum(1), failed: code === 0 ? 0 : Math.max(1, sum(2)) };
+  const failures = [...plain.matchAll(/^test (.*) \.\.\. FAILED$/gm)].map((match) => match[1]);
+  return { passed: sum(1), failed: code === 0 ? 0 : Math.max(1, sum(2)), failures };
 }
 
 /** Runs one of the projects of vitest.config.js. */
@@ -82,6 +89,23 @@ export async function runVitest(project, env) {
     ]),
     { show: true, env },
   );
-  const { numPassedTests = 0, numFailedTests = 0 } = existsSync(report) ? JSON.parse(readFileSync(report, 'utf8')) : {};
-  return { passed: numPassedTests, failed: code === 0 ? 0 : Math.max(1, numFailedTests) };
+  const outcome = existsSync(report) ? JSON.parse(readFileSync(report, 'utf8')) : {};
+  const { numPassedTests = 0, numFailedTests = 0, testResults = [] } = outcome;
+  return {
+    passed: numPassedTests,
+    failed: code === 0 ? 0 : Math.max(1, numFailedTests),
+    failures: failed(testResults),
+  };
+}
+
+/** The names of the tests that failed, by Vitest's report, each with the first line of why. */
+function failed(testResults) {
+  const why = (message = '') => message.replace(/\x1b\[[0-9;]*m/g, '').split('\n')[0];
+  return testResults.flatMap(({ name, status, message, assertionResults }) => {
+    const file = relative(root, name);
+    const tests = assertionResults.filter((test) => test.status === 'failed');
+    // A file that fails as a whole, as where its set-up does, has no failing test.
+    if (tests.length === 0) return status === 'failed' ? [`${file}: ${why(message)}`] : [];
+    return tests.map(({ fullName, failureMessages }) => `${file}: ${fullName}: ${why(failureMessages[0])}`);
+  });
 }
