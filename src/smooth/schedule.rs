@@ -87,6 +87,11 @@ impl Schedule {
         Self::new(&Forecast { rule: false, work: Work::Filter, analysis: false, factorization: false, groups })
     }
 
+    /// What all steps take together, in the units of [`Work::shares`].
+    pub(super) fn time(&self) -> f64 {
+        self.0.iter().map(|(_, share)| share).sum()
+    }
+
     /// Goes through the steps.
     pub(super) fn stages<'w, 'a>(&'w self, watch: &'w Watch<'a>) -> Stages<'w, 'a> {
         Stages { watch, plan: watch.plan(&self.0), group: 0 }

@@ -20,6 +20,19 @@ struct Block {
 /// `OutOfMemory` with the bytes that were asked for.
 #[inline(never)]
 pub(crate) fn ensure(bytes: u64) -> Result<(), OutOfMemory> {
+    hold(bytes).map(drop)
+}
+
+/// Memory that is kept for later: what is made meanwhile has to do with the rest. It is given back when this is dropped.
+pub(crate) struct Held {
+    _rooms: [Vec<Block>; 4],
+}
+
+/// Takes `bytes`, as [`ensure`] does, and keeps them.
+///
+/// # Errors
+/// `OutOfMemory` with the bytes that were asked for.
+pub(crate) fn hold(bytes: u64) -> Result<Held, OutOfMemory> {
     // No allocation can be larger than half of the address space, which WebAssembly can have all of.
     const LARGEST: u64 = isize::MAX as u64 / 2 / size_of::<Block>() as u64;
     let mut rooms: [Vec<Block>; 4] = [const { Vec::new() }; 4];
@@ -33,7 +46,7 @@ pub(crate) fn ensure(bytes: u64) -> Result<(), OutOfMemory> {
     }
     // An allocation that nothing reads could be left out by the compiler.
     core::hint::black_box(&rooms);
-    if blocks == 0 { Ok(()) } else { Err(OutOfMemory { bytes }) }
+    if blocks == 0 { Ok(Held { _rooms: rooms }) } else { Err(OutOfMemory { bytes }) }
 }
 
 /// An empty vector with room for `count` elements.

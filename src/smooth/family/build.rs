@@ -17,7 +17,7 @@ use crate::smooth::method::{self, Masked, Method};
 use crate::smooth::methods::settings;
 use crate::smooth::operators::Operators;
 use crate::smooth::report::About;
-use crate::smooth::routes::{Accuracy, SolverSettings};
+use crate::smooth::routes::{Accuracy, Solutions, SolverSettings};
 use crate::smooth::schedule::{Forecast, Schedule};
 use crate::smooth::system::{Matrices, RegularizedSystem};
 use crate::smooth::systems::Systems;
@@ -26,12 +26,15 @@ use crate::support::watch::{Phase, Watch};
 
 /// Where rounding keeps a family from its tolerance, more shifts than these do not help.
 const MOST_SHIFTS: usize = 16;
-/// So many shifts are usual; progress is told as if there were so many.
-const USUAL_SHIFTS: usize = 7;
+/// So many shifts are usual: memory is made sure of for them, and progress is told as if there were so many.
+const USUAL_SHIFTS: usize = 9;
 /// The share of the tolerance that the estimate after the first shift has to be below.
 const FIRST: f64 = 1e-4;
 /// A family that has not come to half of its least error after so many shifts gets no better.
 const PATIENCE: usize = 5;
+/// What making a shift's vectors orthogonal takes, beside the steps of a [`Schedule`].
+const EXTENSION: f64 = 20.0;
+
 impl Family {
     /// Makes a family, and lets it grow.
     pub(in crate::smooth) fn new(
@@ -90,11 +93,14 @@ fn start(
     let operators = input.operators;
     let n = operators.mesh.vertex_count() as u64;
     let count = input.channels.count();
-    // Per channel: its values, thrice; the basis with its images, and what a shift adds. For all: probes and solutions.
-    let vectors = 2 * ((1 + DERIVATIVES) * USUAL_SHIFTS + 2) + 8;
-    memory::ensure(8 * n * ((vectors * count + 4 * TOGETHER + PROBES) as u64))?;
     let most = options.factorizations.unwrap_or(MOST_SHIFTS).min(MOST_SHIFTS);
-    let steps = vec![(Phase::Factorization, 1.0); most.min(USUAL_SHIFTS)];
+    let usual = most.min(USUAL_SHIFTS);
+    // Per channel: its values, thrice; the basis with its images, and what a shift adds. For all: probes and solutions.
+    let vectors = 2 * (1 + DERIVATIVES + 2) + 8;
+    // What later shifts add is kept for them, so that the first factor shows whether there is room for both.
+    let later = memory::hold(8 * n * (2 * (1 + DERIVATIVES) * usual.saturating_sub(1) * count) as u64)?;
+    memory::ensure(8 * n * ((vectors * count + 4 * TOGETHER + PROBES) as u64))?;
+    let steps = vec![(Phase::Factorization, 1.0); usual];
     let mut plan = watch.plan(&steps);
     plan.begin(0)?;
     let regularization = {
@@ -127,12 +133,11 @@ fn start(
     };
     let growth = Growth::new(options.first(), options.tolerance, &matrices, &operators.active);
     let mut family = Family { field, matrices, range: options.range, growth, spaces };
-    loop {
-        add_shift(&mut family, system, watch)?;
-        if family.growth.is_complete || family.growth.shifts.len() >= most {
-            break;
-        }
+    add_shift(&mut family, system, watch)?;
+    drop(later);
+    while !family.growth.is_complete && family.growth.shifts.len() < most {
         plan.begin(0)?;
+        add_shift(&mut family, system, watch)?;
     }
     plan.finish()?;
     Ok(family)
@@ -158,18 +163,23 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     let added = 1 + DERIVATIVES;
     let vectors = added * count + (added * (count + 4)).max(8 * count.min(TOGETHER) + 3 * TOGETHER);
     memory::ensure(8 * n * vectors as u64 + 8 * dimension * dimension * (12 * count as u64 + 12))?;
-    let full = settings(field.operators.options, false);
+    let full = SolverSettings { solutions: Solutions::Many, ..settings(field.operators.options, false) };
     let rough = SolverSettings { accuracy: Accuracy::Rough, ..full };
     let (work, analysis, factorization) = system.forecast(epsilon, full);
-    let groups = spaces.len().div_ceil(TOGETHER);
-    let schedule = Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups });
-    let mut stages = schedule.stages(watch);
+    let [first, next] = [true, false].map(|is_first| {
+        let [analysis, factorization] = [analysis, factorization].map(|needed| needed && is_first);
+        Schedule::new(&Forecast { rule: false, work, analysis, factorization, groups: 1 })
+    });
+    let steps = steps(&first, &next, spaces.len().div_ceil(TOGETHER));
+    let mut plan = watch.plan(&steps);
     // Whatever fails leaves the family as it was.
     let mut added: Vec<Vec<Vec<f64>>> = Vec::with_capacity(spaces.len());
     let mut traces: Vec<f64> = Vec::new();
     for group in spaces.chunks(TOGETHER) {
         let fields = group.iter().map(|space| space.field().to_vec()).collect();
-        let solved = system.solve_fields(fields, epsilon, full, &mut stages)?.solutions;
+        plan.begin(0)?;
+        let schedule = if added.is_empty() { &first } else { &next };
+        let solved = system.solve_fields(fields, epsilon, full, &mut schedule.stages(watch))?.solutions;
         let solutions: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
         // (S + εB)⁻¹εB of f − x, of that and so on, beside as many probes as cost nothing more.
         let mut rest: Vec<Vec<f64>> = solutions
@@ -182,7 +192,8 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
             let first = traces.len();
             let probes = &growth.probes[first..PROBES.min(first + TOGETHER.saturating_sub(rest.len()).max(1))];
             let right_hand_sides: Vec<Vec<f64>> = rest.iter().chain(probes).cloned().collect();
-            let solved = system.solve_fields(right_hand_sides, epsilon, rough, &mut stages)?.solutions;
+            plan.begin(0)?;
+            let solved = system.solve_fields(right_hand_sides, epsilon, rough, &mut next.stages(watch))?.solutions;
             let mut solved: Vec<Vec<f64>> = solved.into_iter().map(|solution| solution.x).collect();
             traces.extend(probes.iter().zip(&solved[rest.len()..]).map(|(z, x)| dot(z, x)));
             solved.truncate(rest.len());
@@ -190,8 +201,8 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
             rest = solved;
         }
         added.append(&mut of_spaces);
-        stages.next_group();
     }
+    plan.begin(0)?;
     let kind = Kind::OfShift(growth.shifts.len());
     let before: Vec<usize> = spaces.iter().map(Space::dimension).collect();
     if let Err(error) = extend(spaces, added, kind, matrices, watch) {
@@ -217,6 +228,14 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
         spaces.iter_mut().for_each(Space::finish);
     }
     Ok(())
+}
+
+/// The steps of a shift for so many groups of channels: a solution and its derivatives for each, and what makes them orthogonal.
+fn steps(first: &Schedule, next: &Schedule, groups: usize) -> Vec<(Phase, f64)> {
+    let mut steps = vec![(Phase::Solve, next.time()); ((1 + DERIVATIVES) * groups).saturating_sub(1)];
+    steps.insert(0, (Phase::Factorization, first.time()));
+    steps.push((Phase::Solve, EXTENSION * groups as f64));
+    steps
 }
 
 /// Adds to every space what a shift gave for it.

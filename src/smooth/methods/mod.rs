@@ -22,7 +22,7 @@ use super::channels::Channel;
 use super::constraints::{ConstraintSet, Constraints};
 use super::input::Input;
 use super::report::SolverReport;
-use super::routes::{Accuracy, SolverSettings};
+use super::routes::{Accuracy, Solutions, SolverSettings};
 use super::run::Solution;
 use super::schedule::Stages;
 use super::unconstrained::UnconstrainedComponents;
@@ -36,6 +36,7 @@ pub(super) fn settings(options: SmootherOptions, is_first: bool) -> SolverSettin
         precision: options.precision,
         bounds: options.bounds && is_first,
         accuracy: Accuracy::Full,
+        solutions: Solutions::Few,
     }
 }
 

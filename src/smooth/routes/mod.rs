@@ -28,10 +28,10 @@ pub(super) use problem::{DataPart, Form, Problem, RightHandSide, SymmetricPart, 
 use real::RealRoute;
 pub(super) use real::Square;
 use refine::Iterate;
-pub(super) use task::{Accuracy, Answer, FactorKey, SolverSettings, Task};
+pub(super) use task::{Accuracy, Answer, FactorKey, Solutions, SolverSettings, Task};
 
-/// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL, whose cost
-/// grows faster: estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
+/// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL for a solution or two:
+/// the cost of that factor grows faster. Estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
 const LARGE: usize = 400_000;
 
 /// A way to try: one that has a factor, or iterations without.
@@ -49,6 +49,15 @@ struct Solver {
     key: FactorKey,
     way: Way,
     precision: UsedPrecision,
+    /// How many solutions the way was chosen for.
+    solutions: Solutions,
+}
+
+impl Solver {
+    /// Whether it is the one for such a system, too.
+    fn serves(&self, key: &FactorKey, settings: SolverSettings) -> bool {
+        self.key == *key && self.solutions >= settings.solutions
+    }
 }
 
 /// Analyses and factors, kept for the next call.
@@ -62,7 +71,7 @@ pub(super) struct Routes {
 
 /// The ways to try, the best one first.
 fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]) {
-    let large = problem.unknowns() >= LARGE;
+    let is_squaring_dear = problem.unknowns() >= LARGE && settings.solutions == Solutions::Few;
     // Where the product (A + iD) W (A − iD) is near the system, if not the system itself.
     let is_near_product = problem.data().is_some() && problem.symmetric_part().is_some();
     match (settings.choice, problem.is_product()) {
@@ -74,7 +83,7 @@ fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]
             (Way::Real, &[Way::Iterations])
         }
         // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
-        (SolverChoice::Auto, false) if large || settings.precision == Precision::Single => {
+        (SolverChoice::Auto, false) if is_squaring_dear || settings.precision == Precision::Single => {
             (Way::ComplexIterations, &[Way::Real, Way::Iterations])
         }
         (SolverChoice::Auto, false) => (Way::Real, &[Way::ComplexIterations, Way::Iterations]),
@@ -90,7 +99,7 @@ impl Routes {
         settings: SolverSettings,
     ) -> (Work, bool, bool) {
         let (best, _) = ways(problem, settings);
-        let way = self.last.as_ref().filter(|last| last.key == *key).map_or(best, |last| last.way);
+        let way = self.last.as_ref().filter(|last| last.serves(key, settings)).map_or(best, |last| last.way);
         let complex = (self.complex.is_none(), !self.complex.as_ref().is_some_and(|factors| factors.has(key)));
         let real = (self.real.is_none(), !self.real.as_ref().is_some_and(|route| route.has(key)));
         match way {
@@ -115,7 +124,8 @@ impl Routes {
             });
         }
         // The same system again, with its factor at hand: what failed the last time would fail again.
-        if let Some(last) = self.last.take().filter(|last| last.key == *task.key && last.way != Way::Iterations) {
+        let last = self.last.take().filter(|last| last.serves(task.key, task.settings) && last.way != Way::Iterations);
+        if let Some(last) = last {
             let tried = if last.precision == UsedPrecision::Single { Precision::Single } else { Precision::Double };
             match self.factored(last.way, task, tried, stages) {
                 Ok(answer) => {
@@ -175,7 +185,8 @@ impl Routes {
     /// Solves in one way, and remembers it.
     fn by(&mut self, way: Way, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
         let answer = self.tried(way, task, stages)?;
-        self.last = Some(Solver { key: task.key.clone(), way, precision: answer.precision });
+        let solutions = task.settings.solutions;
+        self.last = Some(Solver { key: task.key.clone(), way, precision: answer.precision, solutions });
         Ok(answer)
     }
 

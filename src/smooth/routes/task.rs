@@ -20,6 +20,16 @@ pub(in crate::smooth) struct SolverSettings {
     /// Whether the smallest eigenvalue is wanted, too.
     pub(in crate::smooth) bounds: bool,
     pub(in crate::smooth) accuracy: Accuracy,
+    pub(in crate::smooth) solutions: Solutions,
+}
+
+/// How many solutions are wanted of one factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::smooth) enum Solutions {
+    /// Those of one call.
+    Few,
+    /// So many that a costly factor which solves at once is cheaper than one that only preconditions iterations.
+    Many,
 }
 
 /// How good solutions have to be.

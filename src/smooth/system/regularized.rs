@@ -11,7 +11,8 @@ use crate::smooth::channels::Channel;
 use crate::smooth::data_term::{DataTerm, Mass, Norm};
 use crate::smooth::operators::Operators;
 use crate::smooth::routes::{
-    Accuracy, DataPart, FactorKey, Form, Problem, RightHandSide, Routes, SolverSettings, Square, Symmetry, Task,
+    Accuracy, DataPart, FactorKey, Form, Problem, RightHandSide, Routes, Solutions, SolverSettings, Square, Symmetry,
+    Task,
 };
 use crate::smooth::schedule::{Stages, Work};
 use crate::smooth::{Operator, Precision, SolverChoice};
@@ -130,6 +131,7 @@ impl RegularizedSystem {
             precision: Precision::Double,
             bounds: false,
             accuracy: Accuracy::Full,
+            solutions: Solutions::Few,
         };
         let problem = matrices.problem(epsilon);
         let task = Task { problem, key: &matrices.key(epsilon), right_hand_sides: &[], settings };
