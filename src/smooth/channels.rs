@@ -42,12 +42,22 @@ impl Channel {
 
     /// Normalised values back in the units of the input. Only `changed` vertices can have new ones: the others keep theirs to the
     /// last bit.
-    pub(super) fn restored<'a>(&self, x: &[f64], changed: impl Iterator<Item = &'a u32>) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// `RangeOverflow` where a new value is beyond the range of doubles: what is smoothed can overshoot.
+    pub(super) fn restored<'a>(
+        &self,
+        x: &[f64],
+        changed: impl Iterator<Item = &'a u32>,
+    ) -> Result<Vec<f64>, FieldError> {
         let mut values = self.values.clone();
+        let mut is_finite = true;
         for &v in changed {
-            values[v as usize] = self.range.min + self.range.length() * x[v as usize];
+            let value = self.range.min + self.range.length() * x[v as usize];
+            is_finite &= value.is_finite();
+            values[v as usize] = value;
         }
-        values
+        if is_finite { Ok(values) } else { Err(FieldError::RangeOverflow {}) }
     }
 }
 

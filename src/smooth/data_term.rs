@@ -8,7 +8,7 @@ use super::Metric;
 use crate::error::Result;
 use crate::mesh::TriMesh;
 use crate::operators::{MassKind, MassOptions, MassScale, lumped_mass_diagonal, mass};
-use crate::solve::{submatrix, transposed_product};
+use crate::solve::{Twofold, submatrix, transposed_product, transposed_product_twofold};
 use crate::support::watch::Watch;
 
 /// The work with an entry of a matrix that is copied.
@@ -109,6 +109,15 @@ impl Mass {
             Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(d, x)| d * x).collect(),
             // Symmetric, so the product that gathers serves.
             Self::Matrix(matrix) | Self::Partial(matrix) => transposed_product(matrix, x),
+        }
+    }
+
+    /// B times x, in twice the precision.
+    pub(super) fn times_twofold(&self, x: &[Twofold]) -> Vec<Twofold> {
+        match self {
+            Self::Identity => x.to_vec(),
+            Self::Diagonal(diagonal) => diagonal.iter().zip(x).map(|(&d, x)| x.times(d)).collect(),
+            Self::Matrix(matrix) | Self::Partial(matrix) => transposed_product_twofold(matrix, x),
         }
     }
 

@@ -57,6 +57,8 @@ pub enum Route {
     Cholesky,
     /// By conjugate gradients that a complex factor preconditions.
     CgComplexCholesky,
+    /// By conjugate gradients that the real factor of a matrix nearby preconditions: where rounding takes a pivot.
+    CgCholesky,
     /// By conjugate gradients that multigrid preconditions, without a factor.
     CgMultigrid,
     /// By conjugate gradients that the diagonal preconditions, without a factor.
@@ -69,7 +71,7 @@ pub enum Route {
 
 named! { Route {
     ComplexCholesky = "complexCholesky", Cholesky = "cholesky", CgComplexCholesky = "cgComplexCholesky",
-    CgMultigrid = "cgMultigrid", CgJacobi = "cgJacobi", Family = "family", None = "none",
+    CgCholesky = "cgCholesky", CgMultigrid = "cgMultigrid", CgJacobi = "cgJacobi", Family = "family", None = "none",
 } }
 
 /// The precision of the factor that a system was solved with.

@@ -8,7 +8,7 @@ use super::input::Input;
 use super::operators::Operators;
 use super::report::{About, Facts, Measures, Smoothed, SolverReport, measure};
 use super::schedule::Stages;
-use crate::error::Result;
+use crate::error::{FieldError, Result};
 use crate::support::memory;
 use crate::support::watch::Phase;
 
@@ -60,7 +60,7 @@ pub(super) fn whole(
     channel: &Channel,
     vertices: &[u32],
     solution: &[f64],
-) -> (Vec<f64>, Vec<f64>) {
+) -> Result<(Vec<f64>, Vec<f64>), FieldError> {
     let mut x = channel.normalized.clone();
     let mut moved = Vec::new();
     if let Some(components) = &about.unconstrained {
@@ -70,11 +70,11 @@ pub(super) fn whole(
     for (&v, &value) in vertices.iter().zip(solution) {
         x[v as usize] = value;
     }
-    let mut values = channel.restored(&x, vertices.iter().chain(&moved));
+    let mut values = channel.restored(&x, vertices.iter().chain(&moved))?;
     if let Some(set) = &about.constraints {
         level_constant_components(&operators.active, set, channel, &mut x, &mut values);
     }
-    (x, values)
+    Ok((x, values))
 }
 
 /// Smooths all channels, some at a time.
@@ -102,7 +102,7 @@ pub(super) fn run(
         for (c, (channel, solution)) in (first..).zip(group.iter().zip(found.solutions)) {
             let (x, values) = match solution.values {
                 Some(values) => (channel.normalize(&operators.mesh, &values), values),
-                None => whole(operators, about, channel, &solution.vertices, &solution.x),
+                None => whole(operators, about, channel, &solution.vertices, &solution.x)?,
             };
             stages.watch.tick(MEASURED * n)?;
             let facts = Facts {

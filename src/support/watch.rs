@@ -4,7 +4,7 @@ use core::cell::RefCell;
 use core::fmt;
 use core::ops::{ControlFlow, Range};
 
-use crate::error::Cancelled;
+use crate::error::{Cancelled, SolveError};
 use crate::support::named::named;
 
 /// A step of the work, for progress displays.
@@ -71,6 +71,9 @@ struct State<'a> {
     done: f64,
     /// Ticks since the watcher was told last.
     untold: u64,
+    /// All ticks but those, and how many there may be.
+    spent: u64,
+    limit: u64,
     /// The largest fraction told.
     told: f64,
 }
@@ -113,6 +116,8 @@ impl<'a> Watch<'a> {
             expected: 0.0,
             done: 0.0,
             untold: 0,
+            spent: 0,
+            limit: u64::MAX,
             told: 0.0,
         };
         Self { state: RefCell::new(state) }
@@ -130,6 +135,29 @@ impl<'a> Watch<'a> {
             return Ok(());
         }
         state.tell()
+    }
+
+    /// Does work that may take so many ticks. Beyond them it is stopped, as by the watcher, and has failed to converge.
+    ///
+    /// # Errors
+    /// Those of the work; `NotConverged` where it took longer.
+    pub(crate) fn within<T>(&self, ticks: u64, work: impl FnOnce() -> Result<T, SolveError>) -> Result<T, SolveError> {
+        let outer = {
+            let mut state = self.state.borrow_mut();
+            state.account();
+            let limit = state.spent.saturating_add(ticks).min(state.limit);
+            core::mem::replace(&mut state.limit, limit)
+        };
+        let outcome = work();
+        let mut state = self.state.borrow_mut();
+        let is_over = state.is_over();
+        state.limit = outer;
+        if !matches!(outcome, Err(SolveError::Cancelled {})) || state.stopped || !is_over {
+            return outcome;
+        }
+        // What made the work stop at every tick.
+        state.untold = 0;
+        Err(SolveError::NotConverged { iterations: 0, residual: 1.0 })
     }
 
     /// Names what is done until work is divided into steps: nothing of these is done then.
@@ -152,7 +180,12 @@ impl<'a> Watch<'a> {
 impl State<'_> {
     fn account(&mut self) {
         self.done += self.untold as f64;
+        self.spent = self.spent.saturating_add(self.untold);
         self.untold = 0;
+    }
+
+    fn is_over(&self) -> bool {
+        self.spent > self.limit
     }
 
     fn fraction(&self) -> f64 {
@@ -172,7 +205,7 @@ impl State<'_> {
         if let Some(watcher) = &mut self.watcher {
             self.stopped = watcher(progress).is_break();
         }
-        if !self.stopped {
+        if !self.stopped && !self.is_over() {
             return Ok(());
         }
         // Work that is stopped once stays so: whoever goes on, or tries another way than the one that failed, hears it at the next tick.
@@ -208,7 +241,7 @@ impl Plan<'_, '_> {
         let mut state = self.watch.state.borrow_mut();
         state.part = at(before)..at(before + share);
         state.phase = self.phase.or(Some(phase));
-        state.untold = 0;
+        state.account();
         state.expected = ticks as f64;
         state.done = 0.0;
         state.tell()
@@ -238,7 +271,7 @@ impl Drop for Plan<'_, '_> {
         let is_outermost = self.phase.is_none();
         state.part = if is_outermost { 0.0..1.0 } else { self.part.end..self.whole.end };
         state.told = if is_outermost { 0.0 } else { state.told };
-        state.untold = 0;
+        state.account();
         state.phase = self.phase;
         state.expected = 0.0;
         state.done = 0.0;

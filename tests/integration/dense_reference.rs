@@ -177,7 +177,7 @@ impl Reference {
     }
 }
 
-fn exactly(x: &[f64]) -> Vec<Double> {
+pub(crate) fn exactly(x: &[f64]) -> Vec<Double> {
     x.iter().map(|&x| x.into()).collect()
 }
 
@@ -186,7 +186,7 @@ fn sum(a: Vec<Double>, b: &[Double]) -> Vec<Double> {
 }
 
 /// The zeros of a sparse matrix are passed over.
-fn times(matrix: &DMatrix<f64>, x: &[Double]) -> Vec<Double> {
+pub(crate) fn times(matrix: &DMatrix<f64>, x: &[Double]) -> Vec<Double> {
     let mut y = vec![Double::from(0.0); matrix.nrows()];
     for (column, &scale) in matrix.column_iter().zip(x) {
         for (y, &entry) in y.iter_mut().zip(column.iter()) {

@@ -165,3 +165,28 @@ fn any_unit_of_the_mesh() {
         }
     }
 }
+
+/// A field between the ends of double precision overshoots them: the error is about its range, as every one of its values is finite.
+#[test]
+fn overshooting_the_range_of_doubles() {
+    let mesh = shapes::grid(7, 7).unwrap();
+    let mut refused = 0;
+    for seed in 0..20 {
+        let f: Vec<f64> = noise(49, seed).iter().map(|x| 8.9e307 * x.signum()).collect();
+        let vertices: Vec<u32> = (0..8).map(|k| (11 * k + seed as u32 * 5) % 49).collect();
+        let constraints = crate::dense_reference::named(&vertices, morse_smooth::smooth::Unconstrained::Error);
+        let options = morse_smooth::smooth::InterpolateOptions {
+            constraints,
+            energy: morse_smooth::smooth::Energy::Biharmonic,
+            ..Default::default()
+        };
+        match Smoother::new(&mesh, SmootherOptions::default()).unwrap().interpolate(&f, &options) {
+            Ok(smoothed) => assert!(smoothed.values.iter().all(|x| x.is_finite())),
+            Err(error) => {
+                assert_eq!(error.code(), "RangeOverflow", "{error}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(refused > 3, "{refused}");
+}

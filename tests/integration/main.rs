@@ -63,6 +63,7 @@ mod solve;
 mod solve_watch;
 mod stopping;
 mod support;
+mod thin;
 #[cfg(feature = "render")]
 mod ticks;
 mod weld;

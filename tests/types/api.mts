@@ -197,7 +197,7 @@ new Smoother(mesh, { bounds: true, weights: 'intrinsicDelaunay' });
 new Smoother(mesh, { bounds: 'all' });
 same<
   typeof route,
-  'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none'
+  'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none'
 >(true);
 same<typeof precision, 'double' | 'single' | 'doubleAfterSingle'>(true);
 

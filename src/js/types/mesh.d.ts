@@ -81,7 +81,7 @@ export class TriMesh {
 
   /**
    * The lines on which the field has the given values, or `count` values that cut its range into equal parts (none where the field
-   * is constant), or values just below and just above `saddles`, where the lines change their shape. At most 10,000.
+   * is constant, and fewer where the range holds fewer numbers), or values just below and just above `saddles`, where the lines change their shape. At most 10,000.
    *
    * @throws `NonFiniteLevel` (`index`), `LengthMismatch`, `NonFiniteValue`; `IndexOutOfBounds` (`index`) for a vertex in `saddles`;
    *   `OutOfMemory` (`bytes`) for more points than fit

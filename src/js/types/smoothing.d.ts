@@ -348,6 +348,8 @@ export interface SolverReport {
    * - `"complexCholesky"`: a complex factor on the pattern of L, which solves eq. (3) and operator `"fem"`
    * - `"cholesky"`: a real factor on the pattern of LᵀL
    * - `"cgComplexCholesky"`: conjugate gradients, preconditioned by the complex factor; for eq. (5) where LᵀL is large
+   * - `"cgCholesky"`: conjugate gradients, preconditioned by the real factor of a matrix nearby; where the triangles are so thin that
+   *   rounding takes a pivot of LᵀL
    * - `"cgMultigrid"`: conjugate gradients, preconditioned by multigrid, without a factor
    * - `"cgJacobi"`: conjugate gradients, preconditioned by the diagonal
    * - `"family"`: the space of a {@link SmoothingFamily}
@@ -356,7 +358,7 @@ export interface SolverReport {
    * Only the second and the fifth can do with weights that are not symmetric. Interpolation takes the second, on the pattern of L where
    * it is harmonic, the fourth or the fifth.
    */
-  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none';
+  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none';
   /** The precision of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
   precision: 'double' | 'single' | 'doubleAfterSingle';
   /** Size of the system; 0 for filters. */

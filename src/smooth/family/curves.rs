@@ -84,7 +84,7 @@ impl Family {
         plan.begin((2 * epsilons.len() * space.dimension() * n) as u64)?;
         let small = 8 * (epsilons.len() * (space.dimension() + 8)) as u64 + choose::grid_bytes(self.range);
         memory::ensure(64 * n as u64 + small)?;
-        let (l_infinity, [laplacian, sobolev]) = self.elsewhere(options.channel);
+        let (l_infinity, [laplacian, sobolev]) = self.elsewhere(options.channel)?;
         let is_known: Vec<bool> =
             self.matrices.unknowns().iter().map(|&v| !self.field.is_missing(v as usize)).collect();
         let mut sweep = Sweep {
@@ -126,23 +126,23 @@ impl Family {
     /// The numbers of minima, of maxima, and of saddles with multiplicity, of one channel.
     pub(super) fn counts(&self, epsilon: f64, channel: usize, watch: &Watch<'_>) -> Result<[u32; 3]> {
         memory::ensure(self.channel_bytes())?;
-        let values = self.channel_values(epsilon, channel);
+        let values = self.channel_values(epsilon, channel)?;
         let field = ScalarField::with_missing(&self.field.operators.mesh, &values, self.field.missing_after())?;
         let counts = critical_points(&field, &DeltaOptions::default(), watch)?.counts;
         Ok([counts.minima, counts.maxima, counts.saddles])
     }
 
     /// What vertices that are no unknowns add to the norms: max |x − f|, ‖Lx‖² and xᵀLx.
-    fn elsewhere(&self, channel: usize) -> (f64, [f64; 2]) {
+    fn elsewhere(&self, channel: usize) -> Result<(f64, [f64; 2])> {
         let zeros = vec![0.0; self.matrices.unknowns().len()];
-        let (x, _) = self.whole(channel, &zeros);
+        let (x, _) = self.whole(channel, &zeros)?;
         let normalized = &self.field.channels[channel].normalized;
         let mut is_unknown = vec![false; x.len()];
         self.matrices.unknowns().iter().for_each(|&v| is_unknown[v as usize] = true);
         let moves = |v: &usize| !is_unknown[*v] && !self.field.is_missing(*v);
         let largest = (0..x.len()).filter(moves).map(|v| (x[v] - normalized[v]).abs()).fold(0.0, f64::max);
         let energies = energies(&self.field.operators.laplacian, &x);
-        (largest, [energies.laplacian_norm * energies.laplacian_norm, energies.sobolev])
+        Ok((largest, [energies.laplacian_norm * energies.laplacian_norm, energies.sobolev]))
     }
 }
 

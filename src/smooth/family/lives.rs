@@ -50,7 +50,7 @@ impl Family {
         let mut living: Vec<ExtremumLife> = Vec::new();
         for &epsilon in grid.iter().rev() {
             memory::ensure(self.channel_bytes())?;
-            let values = self.channel_values(epsilon, channel);
+            let values = self.channel_values(epsilon, channel)?;
             let field = ScalarField::with_missing(mesh, &values, self.field.missing_after())?;
             let Basins { descending, ascending } = basins(&field, Threshold::Relative(0.0), watch)?;
             // Marks; the extrema of this ε, and the lists of lives, which are moved as they grow, and sorted.

@@ -117,7 +117,7 @@ impl Family {
         memory::ensure(8 * (field.values.len() + field.count_before()) as u64 + self.channel_bytes())?;
         let mut values = field.values.clone();
         for c in 0..field.channels.len() {
-            let restored = self.channel_values(epsilon, c);
+            let restored = self.channel_values(epsilon, c)?;
             for (place, value) in values.iter_mut().skip(c).step_by(field.channels.len()).zip(restored) {
                 *place = value;
             }
@@ -156,14 +156,14 @@ impl Family {
     }
 
     /// The smoothed values of one channel.
-    pub(super) fn channel_values(&self, epsilon: f64, channel: usize) -> Vec<f64> {
-        self.whole(channel, &self.spaces[channel].solution(epsilon, Which::Full)).1
+    pub(super) fn channel_values(&self, epsilon: f64, channel: usize) -> Result<Vec<f64>> {
+        Ok(self.whole(channel, &self.spaces[channel].solution(epsilon, Which::Full))?.1)
     }
 
     /// The values of a channel from those of its unknowns: normalised, and in the units of the input.
-    pub(super) fn whole(&self, channel: usize, solution: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn whole(&self, channel: usize, solution: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
         let Field { operators, about, channels, .. } = &self.field;
-        whole(operators, about, &channels[channel], self.matrices.unknowns(), solution)
+        Ok(whole(operators, about, &channels[channel], self.matrices.unknowns(), solution)?)
     }
 
     fn check(&self, epsilon: f64) -> Result<(), OptionError> {

@@ -145,7 +145,7 @@ impl Prescribing<'_, '_> {
         let mut solved = self.system.solve(core::slice::from_ref(channel), epsilon, settings, &mut stages)?;
         let x = solved.solutions.pop().map(|solution| solution.x).unwrap_or_default();
         let unknowns = Arc::clone(self.system.unknowns());
-        let (x, values) = whole(self.input.operators, &self.about, channel, &unknowns, &x);
+        let (x, values) = whole(self.input.operators, &self.about, channel, &unknowns, &x)?;
         Ok(Smooth { x, values })
     }
 

@@ -15,7 +15,7 @@ use crate::error::SolveError;
 use crate::smooth::Precision;
 use crate::smooth::names::Route;
 use crate::smooth::schedule::Stages;
-use crate::solve::{CholeskyAnalysis, Preconditioner, transposed_product};
+use crate::solve::{CholeskyAnalysis, Preconditioner, Twofold, transposed_product, transposed_product_twofold};
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
@@ -98,6 +98,7 @@ fn product(
         start: None,
         ticks: task.problem.ticks(),
         residual: &residual,
+        precise: Some(&|c, z| precise_residual(laplacian, shift, &task.right_hand_sides[c].field, z)),
         solve: &mut |residuals, _| {
             let mut b = Vec::with_capacity(residuals.len() / 2);
             for r in residuals.chunks_exact(2 * n) {
@@ -121,6 +122,22 @@ fn product(
         iterate.x = iterate.x[n..].iter().map(|im| -im).collect();
     }
     Ok(iterates)
+}
+
+/// D f − (L + iD) z, its real parts and then its imaginary ones, with sums in twice the precision.
+fn precise_residual(laplacian: &CscMatrix<f64>, shift: &[f64], f: &[f64], z: &[f64]) -> Vec<f64> {
+    let (re, im) = z.split_at(shift.len());
+    let image = |part: &[f64]| {
+        let wide: Vec<Twofold> = part.iter().map(|&x| x.into()).collect();
+        // L is symmetric, and the product with the transpose gathers, which is faster.
+        transposed_product_twofold(laplacian, &wide)
+    };
+    let real = image(re).into_iter().enumerate();
+    let imaginary = image(im).into_iter().enumerate();
+    let mut rest: Vec<f64> =
+        real.map(|(i, l)| Twofold::difference(f[i], -im[i]).times(shift[i]).minus(l).value()).collect();
+    rest.extend(imaginary.map(|(i, l)| -Twofold::from(re[i]).times(shift[i]).plus(l).value()));
+    rest
 }
 
 /// The real part of ((L + iD)(L − iD))⁻¹, which is symmetric positive definite as the product is Hermitian so.

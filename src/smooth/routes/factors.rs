@@ -38,11 +38,13 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factor<D, S> {
 pub(super) struct Factors<D: Scalar, S: Scalar<Wide = D::Wide>> {
     analysis: CholeskyAnalysis,
     last: Option<(FactorKey, Factor<D, S>)>,
+    /// Whether pivots of the last factor may have been raised: then it only preconditions.
+    is_raised: bool,
 }
 
 impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
     pub(super) fn new(analysis: CholeskyAnalysis) -> Self {
-        Self { analysis, last: None }
+        Self { analysis, last: None, is_raised: false }
     }
 
     /// Takes the factor of the matrix with these values: the last one if it has the same key, or a new one, in its memory
@@ -54,8 +56,11 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         values: &dyn Fn(&CholeskyAnalysis) -> Vec<D::Wide>,
         stages: &mut Stages<'_, '_>,
     ) -> Result<Factor<D, S>, SolveError> {
+        let is_raised = core::mem::take(&mut self.is_raised);
         let last = match self.last.take() {
-            Some((known, factor)) if known == *key && factor.precision() == precision => return Ok(factor),
+            Some((known, factor)) if known == *key && factor.precision() == precision && !is_raised => {
+                return Ok(factor);
+            }
             last => last,
         };
         stages.begin(Phase::Factorization, 0)?;
@@ -110,19 +115,57 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
 
     /// Gives away the last factor, if it is one in double precision; any other is dropped.
     pub(super) fn take_double(&mut self) -> Option<CholeskyFactor<D>> {
+        self.is_raised = false;
         match self.last.take() {
             Some((_, Factor::Double(factor))) => Some(factor),
             _ => None,
         }
     }
 
-    /// Whether the last factor has this key.
+    /// Whether the last factor has this key, and is that of the matrix itself.
     pub(super) fn has(&self, key: &FactorKey) -> bool {
-        self.last.as_ref().is_some_and(|(known, _)| known == key)
+        !self.is_raised && self.last.as_ref().is_some_and(|(known, _)| known == key)
     }
 
     /// Gives the memory of the last factor back.
     pub(super) fn drop_factor(&mut self) {
         self.last = None;
+        self.is_raised = false;
+    }
+}
+
+impl Factors<f64, f32> {
+    /// Takes a factor whose lost pivots are raised: the last one if it has the same key, or a new one. [`Factors::answer_raised`] puts it
+    /// back.
+    pub(super) fn take_raised(
+        &mut self,
+        key: &FactorKey,
+        values: &dyn Fn(&CholeskyAnalysis) -> Vec<f64>,
+        stages: &mut Stages<'_, '_>,
+    ) -> Result<Factor<f64, f32>, SolveError> {
+        let is_raised = core::mem::take(&mut self.is_raised);
+        match self.last.take() {
+            Some((known, factor)) if known == *key && is_raised => Ok(factor),
+            last => {
+                // Its memory is needed for the new one.
+                drop(last);
+                stages.begin(Phase::Factorization, 0)?;
+                memory::ensure((size_of::<f64>() * self.analysis.pattern().nnz()) as u64)?;
+                Ok(Factor::Double(self.analysis.factor_raised(&values(&self.analysis), stages.watch)?))
+            }
+        }
+    }
+
+    /// As [`Factors::answer`], of a factor with lost pivots raised.
+    pub(super) fn answer_raised(
+        &mut self,
+        key: &FactorKey,
+        factor: Factor<f64, f32>,
+        iterates: Vec<Iterate>,
+        smallest_eigenvalue: Option<f64>,
+    ) -> Answer {
+        let answer = self.answer(key, factor, iterates, Route::CgCholesky, smallest_eigenvalue);
+        self.is_raised = true;
+        answer
     }
 }

@@ -2,12 +2,13 @@
 
 use super::eigenvalue::smallest_eigenvalue;
 use super::problem::{Form, SymmetricPart};
-use super::refine::{Iterate, Refinement, refine};
+use super::refine::{Iterate, Refinement, Residual, refine};
 use super::task::{Answer, Task};
 use crate::error::{Cancelled, SolveError};
 use crate::smooth::Precision;
 use crate::smooth::names::{Route, UsedPrecision};
-use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient};
+use crate::solve::{CgOptions, Jacobi, Multigrid, Preconditioner, SquaredSum, conjugate_gradient, conjugate_steps};
+use crate::support::random::Random;
 use crate::support::watch::{Phase, Watch};
 
 /// Relative residual of each solution by conjugate gradients: within reach of double precision for every system that
@@ -126,6 +127,85 @@ pub(super) fn refined(
     refined_within(task, preconditioner, most, watch)
 }
 
+/// The part of the error, in the norm of the matrix, that a round of [`refined_nearby`] leaves, but for rounding; and its most steps.
+const NEARBY: f64 = 1e-8;
+const MOST_NEARBY: usize = 60;
+/// The relative correction by which a system counts as one with a solution.
+const REGULAR: f64 = 1e-3;
+/// The smallest eigenvalue of M⁻¹A, for the matrix M nearby, with which corrections still tell the error.
+const NEAR: f64 = 1e-4;
+
+/// Conjugate gradients with the factor of a matrix nearby, refined by residuals in factored form. The matrix may be so badly conditioned
+/// that the length of a residual tells nothing: corrections have to shrink.
+pub(super) fn refined_nearby(
+    task: &Task<'_>,
+    nearby: &dyn Preconditioner,
+    watch: &Watch<'_>,
+) -> Result<Vec<Iterate>, SolveError> {
+    let residual = |c: usize, x: &[f64]| task.problem.residual(&task.right_hand_sides[c], x);
+    let precise = |c: usize, x: &[f64]| task.problem.precise_residual(&task.right_hand_sides[c], x);
+    let accuracy = (task.right_hand_sides.len(), task.tolerance(Precision::Double));
+    Ok(by_steps(task, nearby, accuracy, &residual, Some(&precise), watch)?.0)
+}
+
+/// Makes sure that a matrix is regular as far as double precision can tell: that it has a solution for a random right-hand side, in which
+/// everything has a share that the matrix might make zero. The right-hand sides of smoothing have none, and are solved for all the same.
+///
+/// # Errors
+/// `NotConverged` where it is not, or not near enough to the other matrix to tell; those of the steps.
+pub(super) fn check_regular(task: &Task<'_>, nearby: &dyn Preconditioner, watch: &Watch<'_>) -> Result<(), SolveError> {
+    let mut random = Random::new(1);
+    let b: Vec<f64> = (0..task.problem.unknowns()).map(|_| random.signed()).collect();
+    let residual = |_: usize, x: &[f64]| {
+        let mut rest = b.clone();
+        if !x.is_empty() {
+            rest.iter_mut().zip(task.problem.apply(x)).for_each(|(rest, image)| *rest -= image);
+        }
+        rest
+    };
+    let (_, smallest) = by_steps(task, nearby, (1, REGULAR), &residual, None, watch)?;
+    if smallest >= NEAR { Ok(()) } else { Err(SolveError::NotConverged { iterations: 1, residual: smallest.recip() }) }
+}
+
+/// Refines so many right-hand sides to a relative error. Returns the smallest eigenvalue of M⁻¹A that was seen, too.
+fn by_steps(
+    task: &Task<'_>,
+    nearby: &dyn Preconditioner,
+    (count, tolerance): (usize, f64),
+    residual: &Residual<'_>,
+    precise: Option<&Residual<'_>>,
+    watch: &Watch<'_>,
+) -> Result<(Vec<Iterate>, f64), SolveError> {
+    let n = task.problem.unknowns();
+    let mut smallest = f64::INFINITY;
+    let mut apply = |x: &[f64]| {
+        // A product cannot fail: that it was stopped is heard right after it.
+        let _: Result<(), Cancelled> = watch.tick(task.problem.ticks());
+        task.problem.apply(x)
+    };
+    let refinement = Refinement {
+        count,
+        length: n,
+        tolerance,
+        inverse_norm: None,
+        start: None,
+        ticks: task.problem.ticks(),
+        residual,
+        precise,
+        solve: &mut |right_hand_sides, iterations| {
+            let mut solutions = Vec::with_capacity(right_hand_sides.len());
+            for (b, iterations) in right_hand_sides.chunks_exact(n).zip(iterations) {
+                let steps = conjugate_steps(&mut apply, nearby, b, NEARBY, MOST_NEARBY, watch)?;
+                *iterations += steps.count;
+                smallest = smallest.min(steps.smallest);
+                solutions.extend_from_slice(&steps.x);
+            }
+            Ok(solutions)
+        },
+    };
+    Ok((refine(refinement, watch)?, smallest))
+}
+
 fn refined_within(
     task: &Task<'_>,
     preconditioner: &dyn Preconditioner,
@@ -151,6 +231,7 @@ fn refined_within(
         start: start.as_ref().map(|start| start as &dyn Fn(usize) -> Vec<f64>),
         ticks: task.problem.ticks(),
         residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
+        precise: Some(&|c, x| task.problem.precise_residual(&task.right_hand_sides[c], x)),
         solve: &mut |right_hand_sides, iterations| {
             let mut solutions = vec![0.0; right_hand_sides.len()];
             let columns = right_hand_sides.chunks_exact(n).zip(solutions.chunks_exact_mut(n));

@@ -5,6 +5,7 @@
 //! | `complexCholesky` | a symmetric L with B = I (eq. 3), and the finite-element operator | a complex factor on the pattern of L |
 //! | `cholesky` | everything | a real factor on the pattern of LᵀL, of L for harmonic interpolation |
 //! | `cgComplexCholesky` | eq. (5) with a symmetric L, when LᵀL is large | a complex factor on the pattern of L, some iterations |
+//! | `cgCholesky` | where rounding takes a pivot of LᵀL | a real factor of a matrix nearby, some iterations |
 //! | `cgMultigrid` | a symmetric L, when no factor fits | iterations in little memory |
 //! | `cgJacobi` | everything | little memory, many iterations for small ε |
 
@@ -34,12 +35,19 @@ pub(super) use task::{Accuracy, Answer, FactorKey, Solutions, SolverSettings, Ta
 /// the cost of that factor grows faster. Estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
 const LARGE: usize = 400_000;
 
+/// Iterations that are tried after a factor failed may take so many times as long as it, and so many ticks for each unknown: about as long
+/// as all that was done before, a few times.
+const PATIENCE: u64 = 3;
+const PATIENCE_PER_UNKNOWN: u64 = 10_000;
+
 /// A way to try: one that has a factor, or iterations without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     Complex,
     Real,
     ComplexIterations,
+    /// Iterations with the factor of [`Way::Real`], whose lost pivots are raised.
+    Raised,
     Iterations,
 }
 
@@ -77,16 +85,16 @@ fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]
     match (settings.choice, problem.is_product()) {
         (SolverChoice::ConjugateGradient, _) => (Way::Iterations, &[]),
         (SolverChoice::Cholesky, true) => (Way::Complex, &[]),
-        (SolverChoice::Cholesky, false) => (Way::Real, &[]),
+        (SolverChoice::Cholesky, false) => (Way::Real, &[Way::Raised]),
         (SolverChoice::Auto, true) => (Way::Complex, &[Way::Iterations]),
         (SolverChoice::Auto, false) if !is_near_product || problem.weights().is_some() => {
-            (Way::Real, &[Way::Iterations])
+            (Way::Real, &[Way::Raised, Way::Iterations])
         }
         // A real factor in single precision hardly ever refines: the condition number of LᵀL is that of L squared.
         (SolverChoice::Auto, false) if is_squaring_dear || settings.precision == Precision::Single => {
-            (Way::ComplexIterations, &[Way::Real, Way::Iterations])
+            (Way::ComplexIterations, &[Way::Real, Way::Raised, Way::Iterations])
         }
-        (SolverChoice::Auto, false) => (Way::Real, &[Way::ComplexIterations, Way::Iterations]),
+        (SolverChoice::Auto, false) => (Way::Real, &[Way::ComplexIterations, Way::Raised, Way::Iterations]),
     }
 }
 
@@ -107,6 +115,7 @@ impl Routes {
             Way::ComplexIterations => (Work::PreconditionedByFactor, complex.0, complex.1),
             Way::Real if matches!(problem.form, Form::Symmetric) => (Work::FactorOfLaplacian, real.0, real.1),
             Way::Real => (Work::FactorOfSquare, real.0, real.1),
+            Way::Raised => (Work::FactorOfSquare, real.0, true),
             Way::Iterations => (Work::Iterations, false, false),
         }
     }
@@ -145,12 +154,26 @@ impl Routes {
         // Iterations hardly go where a factor did not; they only need less memory. But where there is no data term, it is the
         // square that a factor fails at, and multigrid has the root of it.
         let by_root = task.problem.data().is_none() && task.problem.symmetric_part().is_some();
-        let hopeless = !by_root && !matches!(first_failure, SolveError::OutOfMemory { .. });
+        let is_short = matches!(first_failure, SolveError::OutOfMemory { .. });
+        let budget = (!is_short).then(|| self.budget(task));
         for &way in others {
-            if matches!(first_failure, SolveError::Cancelled {}) || way == Way::Iterations && hopeless {
+            let is_hopeless = match way {
+                Way::Iterations => !by_root && !is_short,
+                // A factor that there is no room for.
+                Way::Raised => is_short,
+                _ => false,
+            };
+            if matches!(first_failure, SolveError::Cancelled {}) {
                 break;
             }
-            match self.by(way, task, stages) {
+            if is_hopeless {
+                continue;
+            }
+            let outcome = match budget {
+                Some(budget) if way == Way::Iterations => stages.watch.within(budget, || self.by(way, task, stages)),
+                _ => self.by(way, task, stages),
+            };
+            match outcome {
                 Err(SolveError::Cancelled {}) => return Err(SolveError::Cancelled {}),
                 Err(_) => {}
                 solved => return solved,
@@ -176,6 +199,13 @@ impl Routes {
         }
     }
 
+    /// How long iterations may take where a factor failed, in ticks: a system that is too much for its factor can be so for them, too, and
+    /// they would not end.
+    fn budget(&self, task: &Task<'_>) -> u64 {
+        let factor = self.real.as_ref().map_or(0, RealRoute::ticks);
+        PATIENCE * factor + PATIENCE_PER_UNKNOWN * task.problem.unknowns() as u64
+    }
+
     /// Gives the memory of the last factors back.
     pub(super) fn drop_factors(&mut self) {
         self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
@@ -196,7 +226,7 @@ impl Routes {
             stages.begin(Phase::Solve, 0)?;
             return iterative::solve(task, stages.watch);
         }
-        if task.settings.precision == Precision::Single {
+        if task.settings.precision == Precision::Single && way != Way::Raised {
             match self.factored(way, task, Precision::Single, stages) {
                 Ok(answer) => return Ok(answer),
                 // Single precision was not enough for this matrix.
@@ -223,10 +253,11 @@ impl Routes {
         // One factor at a time: each can take most of the memory, and where it does, the analysis must go too. An error
         // leaves the analysis, which stays valid.
         let large = task.problem.unknowns() >= LARGE;
-        if way == Way::Real {
+        if matches!(way, Way::Real | Way::Raised) {
             self.complex = self.complex.take().filter(|_| !large);
             self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
-            analysed(&mut self.real, &|watch| RealRoute::new(task, watch), stages)?.solve(task, precision, stages)
+            let route = analysed(&mut self.real, &|watch| RealRoute::new(task, watch), stages)?;
+            if way == Way::Raised { route.solve_raised(task, stages) } else { route.solve(task, precision, stages) }
         } else {
             self.real = self.real.take().filter(|_| !large);
             self.real.iter_mut().for_each(RealRoute::drop_factor);

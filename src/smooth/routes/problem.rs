@@ -3,7 +3,7 @@
 use nalgebra_sparse::CscMatrix;
 
 use crate::smooth::data_term::Mass;
-use crate::solve::{norm, product, transposed_product};
+use crate::solve::{Twofold, norm, product, product_twofold, transposed_product, transposed_product_twofold};
 
 /// A linear system. Its right-hand sides are [`RightHandSide`]s.
 #[derive(Clone, Copy)]
@@ -190,6 +190,26 @@ impl<'a> Problem<'a> {
             None => residual.iter_mut().for_each(|r| *r = -*r),
         }
         residual
+    }
+
+    /// [`Problem::residual`], rounded once: with sums in twice the precision.
+    pub(in crate::smooth) fn precise_residual(&self, side: &RightHandSide, x: &[f64]) -> Vec<f64> {
+        let wide: Vec<Twofold> = x.iter().map(|&x| x.into()).collect();
+        let mut image = product_twofold(self.matrix, &wide);
+        image.iter_mut().zip(&side.offset).for_each(|(y, &c)| *y = y.plus(c.into()));
+        if self.is_first_order() {
+            return image.into_iter().map(|y| -y.value()).collect();
+        }
+        if let Some(weights) = self.weights() {
+            image.iter_mut().zip(weights).for_each(|(y, &w)| *y = y.times(w));
+        }
+        let smoothing = transposed_product_twofold(self.matrix, &image);
+        let Some(data) = self.data() else { return smoothing.into_iter().map(|y| -y.value()).collect() };
+        let rest: Vec<Twofold> = side.field.iter().zip(x).map(|(&f, &x)| Twofold::difference(f, x)).collect();
+        let fidelity = data.mass.times_twofold(&rest);
+        let (epsilon, scale) = (data.scaled_epsilon(), data.scale());
+        let parts = fidelity.iter().zip(&smoothing);
+        parts.map(|(b, s)| b.times(epsilon).minus(s.divided_by(scale)).value()).collect()
     }
 
     /// The matrix times x.

@@ -4,6 +4,7 @@ use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::eigenvalue::smallest_eigenvalue;
 use super::factors::{Factor, Factors};
+use super::iterative;
 use super::problem::Form;
 use super::problem::Problem;
 use super::refine::{Refinement, refine};
@@ -13,7 +14,7 @@ use crate::smooth::Precision;
 use crate::smooth::data_term::Mass;
 use crate::smooth::names::Route;
 use crate::smooth::schedule::Stages;
-use crate::solve::{CholeskyAnalysis, CholeskyFactor, gram};
+use crate::solve::{CholeskyAnalysis, CholeskyFactor, Preconditioner, gram};
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
@@ -101,6 +102,7 @@ impl RealRoute {
             inverse_norm: None,
             ticks: task.problem.ticks(),
             residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
+            precise: Some(&|c, x| task.problem.precise_residual(&task.right_hand_sides[c], x)),
             solve: &mut |b, _| factor.solve(b, watch),
         };
         let iterates = refine(refinement, watch)?;
@@ -109,6 +111,41 @@ impl RealRoute {
             false => None,
         };
         Ok(self.factors.answer(task.key, factor, iterates, Route::Cholesky, eigenvalue))
+    }
+
+    /// Solves by conjugate gradients where rounding took a pivot, or refinement with the factor stalls: preconditioned by the factor with
+    /// such pivots raised, and with the matrix in factored form, whose rounding is that of A and not of its square.
+    pub(super) fn solve_raised(&mut self, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
+        let values = |analysis: &CholeskyAnalysis| values(&self.values, analysis.pattern(), &task.problem);
+        let factor = self.factors.take_raised(task.key, &values, stages)?;
+        stages.begin(Phase::Solve, 0)?;
+        let watch = stages.watch;
+        let nearby = Nearby { factor: &factor, size: task.problem.unknowns() };
+        iterative::check_regular(task, &nearby, watch)?;
+        let iterates = iterative::refined_nearby(task, &nearby, watch)?;
+        let eigenvalue = iterative::eigenvalue(task, &nearby, watch)?;
+        Ok(self.factors.answer_raised(task.key, factor, iterates, eigenvalue))
+    }
+
+    /// About how long a factorisation in double precision takes, in ticks.
+    pub(super) fn ticks(&self) -> u64 {
+        self.factors.analysis().ticks::<f64>()
+    }
+}
+
+/// The inverse of a matrix nearby.
+struct Nearby<'a> {
+    factor: &'a Factor<f64, f32>,
+    size: usize,
+}
+
+impl Preconditioner for Nearby<'_> {
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    fn apply(&self, r: &[f64], watch: &Watch<'_>) -> Result<Vec<f64>, SolveError> {
+        self.factor.solve(r, watch)
     }
 }
 

@@ -12,6 +12,9 @@ const PROVEN: f64 = 1e-14;
 /// Corrections of this size that shrink no more are rounding too, on a badly conditioned system.
 const ROUGH_ROUNDING: f64 = 1e-10;
 
+/// How much longer a residual in twice the precision takes.
+const TWOFOLD: u64 = 10;
+
 /// The shares of the solution and of its corrections, of which two are usual.
 const ROUNDS: [(Phase, f64); 5] =
     [(Phase::Solve, 4.0), (Phase::Solve, 3.0), (Phase::Solve, 2.0), (Phase::Solve, 1.0), (Phase::Solve, 1.0)];
@@ -39,11 +42,14 @@ pub(super) struct Refinement<'a> {
     /// An approximate solution to start from, in place of zero.
     pub(super) start: Option<&'a dyn Fn(usize) -> Vec<f64>>,
     /// The residual of a right-hand side at an approximate solution; at zero, which may be empty, it is the right-hand side itself.
-    pub(super) residual: &'a dyn Fn(usize, &[f64]) -> Vec<f64>,
+    pub(super) residual: &'a Residual<'a>,
+    /// The same in twice the precision, for corrections that shrink no more with the other one.
+    pub(super) precise: Option<&'a Residual<'a>>,
     /// Solves for right-hand sides stored one after the other, and adds to their counts of iterations.
     pub(super) solve: &'a mut Solve<'a>,
 }
 
+pub(super) type Residual<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
 type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError> + 'a;
 
 /// Starts from zero, or what is given, and adds the solution for the residual until little is added, for each right-hand side for as long as
@@ -55,19 +61,24 @@ type Solve<'a> = dyn FnMut(&[f64], &mut [usize]) -> Result<Vec<f64>, SolveError>
 /// # Errors
 /// `NotConverged` where corrections do not shrink; `Cancelled`; those of the solver.
 pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iterate>, SolveError> {
-    let Refinement { count, length: n, tolerance, inverse_norm, ticks, start, residual, solve } = task;
+    let Refinement { count, length: n, tolerance, inverse_norm, ticks, start, residual, precise, solve } = task;
     let mut plan = watch.plan(&ROUNDS);
     let x = |c: usize| start.map_or_else(|| vec![0.0; n], |start| start(c));
     let mut iterates: Vec<Iterate> = (0..count).map(|c| Iterate { x: x(c), ..Iterate::default() }).collect();
     let mut open: Vec<usize> = (0..count).collect();
     let (mut previous, mut slowest) = (vec![1.0; count], vec![0.0_f64; count]);
+    let mut is_precise = vec![false; count];
     for step in 0..=MOST_STEPS {
         plan.begin(0)?;
-        watch.tick(ticks * open.len() as u64)?;
+        let times = open.iter().map(|&c| if is_precise[c] { TWOFOLD } else { 1 }).sum::<u64>();
+        watch.tick(ticks * times)?;
         let mut residuals = Vec::with_capacity(open.len() * n);
         open.retain(|&c| {
-            let rest =
-                if tolerance.is_finite() || start.is_some() { residual(c, &iterates[c].x) } else { residual(c, &[]) };
+            let rest = match precise.filter(|_| is_precise[c]) {
+                Some(precise) => precise(c, &iterates[c].x),
+                None if tolerance.is_finite() || start.is_some() => residual(c, &iterates[c].x),
+                None => residual(c, &[]),
+            };
             let error = inverse_norm.map_or(f64::INFINITY, |inverse| inverse * norm(&rest));
             let is_open = step == 0 || error.is_nan() || error > PROVEN * norm(&iterates[c].x);
             if is_open {
@@ -97,10 +108,17 @@ pub(super) fn refine(task: Refinement<'_>, watch: &Watch<'_>) -> Result<Vec<Iter
                 if size <= ROUGH_ROUNDING {
                     continue;
                 }
+                if precise.is_some() && !is_precise[c] && size.is_finite() {
+                    is_precise[c] = true;
+                    // The next one takes away what rounding left, and so is no smaller.
+                    previous[c] = 1.0;
+                    still_open.push(c);
+                    continue;
+                }
                 return Err(SolveError::NotConverged { iterations: step, residual: size });
             }
             previous[c] = size;
-            slowest[c] = slowest[c].max(shrunk);
+            slowest[c] = if is_precise[c] { shrunk } else { slowest[c].max(shrunk) };
             if size > ROUNDING && size * slowest[c] > tolerance {
                 still_open.push(c);
             }

@@ -83,6 +83,11 @@ impl CholeskyAnalysis {
         &self.shared.pattern
     }
 
+    /// About how long a factorisation takes, in ticks.
+    pub(crate) fn ticks<T: Scalar>(&self) -> u64 {
+        factorization_ticks::<T::Block>(&self.shared.symbolic)
+    }
+
     /// What the factor holds.
     #[must_use]
     pub fn size(&self) -> FactorSize {
@@ -106,15 +111,33 @@ impl CholeskyAnalysis {
     /// `PatternMismatch`, `NonFiniteEntry`, `NotPositiveDefinite` with the column, `Cancelled`, and `OutOfMemory` with the
     /// number of bytes, before anything is computed.
     pub fn factor<T: Scalar>(&self, values: &[T::Wide], watch: &Watch<'_>) -> Result<CholeskyFactor<T>, SolveError> {
+        self.factored(values, false, watch)
+    }
+
+    /// Factorises as [`CholeskyAnalysis::factor`], but raises pivots that are no more than rounding to the least that are more: the factor
+    /// of a matrix nearby, with more on its diagonal, for iterations to be preconditioned by.
+    ///
+    /// # Errors
+    /// Those of [`CholeskyAnalysis::factor`]; `NotPositiveDefinite` where raising a pivot is of no use.
+    pub(crate) fn factor_raised(&self, values: &[f64], watch: &Watch<'_>) -> Result<CholeskyFactor<f64>, SolveError> {
+        self.factored(values, true, watch)
+    }
+
+    fn factored<T: Scalar>(
+        &self,
+        values: &[T::Wide],
+        raises: bool,
+        watch: &Watch<'_>,
+    ) -> Result<CholeskyFactor<T>, SolveError> {
         self.check::<T>(values)?;
         let mut plan = watch.plan(&[(Phase::Factorization, 1.0)]);
-        plan.begin(factorization_ticks::<T::Block>(&self.shared.symbolic))?;
+        plan.begin(self.ticks::<T>())?;
         let mut factor = self.allocate::<T>(watch).map_err(|error| match error {
             // All that is needed is told, not the piece that could not be had.
             SolveError::OutOfMemory { .. } => SolveError::OutOfMemory { bytes: self.memory::<T>() },
             other => other,
         })?;
-        factor.compute(values, plan, watch)?;
+        factor.compute(values, raises, plan, watch)?;
         Ok(factor)
     }
 
@@ -196,16 +219,22 @@ impl<T: Scalar> CholeskyFactor<T> {
         self.analysis.check::<T>(values)?;
         self.state = State::Stopped;
         let mut plan = watch.plan(&[(Phase::Factorization, 1.0)]);
-        plan.begin(factorization_ticks::<T::Block>(&self.analysis.shared.symbolic))?;
-        self.compute(values, plan, watch)
+        plan.begin(self.analysis.ticks::<T>())?;
+        self.compute(values, false, plan, watch)
     }
 
     /// Computes what `plan` has begun.
-    fn compute(&mut self, values: &[T::Wide], plan: Plan<'_, '_>, watch: &Watch<'_>) -> Result<(), SolveError> {
+    fn compute(
+        &mut self,
+        values: &[T::Wide],
+        raises: bool,
+        plan: Plan<'_, '_>,
+        watch: &Watch<'_>,
+    ) -> Result<(), SolveError> {
         let Analysis { pattern, symbolic } = &*self.analysis.shared;
         [self.scale, _] = scales::<T>(values);
         let matrix = ScaledMatrix { pattern, values, scale: self.scale };
-        match self.workspace.factorize(symbolic, &matrix, &mut self.fronts, watch) {
+        match self.workspace.factorize(symbolic, &matrix, &mut self.fronts, raises, watch) {
             Ok(()) => {
                 plan.finish()?;
                 self.state = State::Done;

@@ -39,11 +39,32 @@ const fn depth<B>() -> usize {
 /// Rows whose tiles stay in the second-level cache while all tiles below pass by.
 const BREADTH: usize = 128;
 
+/// A pivot of less than so many roundings of its entry has no digit.
+const ROUNDINGS: f64 = 8.0;
+
 /// The diagonal entries as they were before any elimination, by which negligible pivots are known.
 pub(super) struct Diagonal<'a, B: LaneBlock> {
     pub(super) entries: &'a [B::Element],
     /// A pivot of at most this fraction of its entry is no more than rounding.
     pub(super) negligible: f64,
+    /// Whether pivots that are no more than rounding are raised to that fraction, and do not fail.
+    pub(super) raises: bool,
+}
+
+impl<B: LaneBlock> Diagonal<'_, B> {
+    /// The root of a column's pivot.
+    #[inline]
+    fn root(&self, column: usize, pivot: B::Element) -> Option<B::Element> {
+        if self.raises { self.raised_root(column, pivot) } else { pivot.root(self.entries[column], self.negligible) }
+    }
+
+    #[cold]
+    fn raised_root(&self, column: usize, pivot: B::Element) -> Option<B::Element> {
+        // What is raised if it is nothing but rounding need not be told from rounding for certain.
+        let entry = self.entries[column];
+        let root = pivot.root(entry, ROUNDINGS * B::Element::EPSILON);
+        root.or_else(|| pivot.raised_root(entry, self.negligible))
+    }
 }
 
 impl<B: LaneBlock> Clone for Diagonal<'_, B> {
@@ -217,7 +238,7 @@ fn solve_tile<B: LaneBlock>(pivots: &[B], row: &mut [B], start: usize, end: usiz
 #[inline(never)]
 fn eliminate_tile<B: LaneBlock>(tile: &mut [B], diagonal: Diagonal<'_, B>) -> Result<(), usize> {
     for c in 0..diagonal.entries.len() {
-        let root = tile[c].lane(c).root(diagonal.entries[c], diagonal.negligible).ok_or(c)?;
+        let root = diagonal.root(c, tile[c].lane(c)).ok_or(c)?;
         let reciprocal = root.reciprocal();
         let mut column = B::ZERO;
         for lane in c + 1..B::LANES {

@@ -138,12 +138,13 @@ impl<B: LaneBlock> Workspace<B> {
     }
 
     /// Computes the factor of the matrix into `factor`, a vector with the capacity for it for every front. Ends early at the
-    /// place of a column whose pivot fails.
+    /// place of a column whose pivot fails; where it `raises` pivots, lost ones are raised instead.
     pub(super) fn factorize(
         &mut self,
         symbolic: &Symbolic,
         matrix: &ScaledMatrix<'_, B>,
         factor: &mut [Vec<B>],
+        raises: bool,
         watch: &Watch<'_>,
     ) -> Result<(), Stopped> {
         let negligible = (NEGLIGIBLE * B::Element::EPSILON * (self.places.len() as f64).sqrt()).min(MOST_NEGLIGIBLE);
@@ -190,7 +191,7 @@ impl<B: LaneBlock> Workspace<B> {
                 add_child(&mut front, child, &self.child_places);
                 released += size;
             }
-            let diagonal = Diagonal { entries: &self.diagonal, negligible };
+            let diagonal = Diagonal { entries: &self.diagonal, negligible, raises };
             watch.tick(assembly_ticks::<B>(factor_size as u64, update_size as u64))?;
             front.eliminate(diagonal, watch).map_err(|stopped| match stopped {
                 Stopped::At(column) => Stopped::At(columns.start + column),

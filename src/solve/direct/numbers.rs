@@ -6,6 +6,9 @@ use nalgebra::Complex;
 use super::lane_block::{Plain, Planar};
 use super::scalar::Scalar;
 
+/// A pivot that is raised is at most this part of its entry: what comes of rounding. Beyond that the factor is one of another matrix.
+const ROUNDED: f64 = 1e-3;
+
 macro_rules! scalars {
     ($real:ident, $lanes:literal) => {
         impl Scalar for $real {
@@ -59,6 +62,13 @@ macro_rules! scalars {
             fn root(self, diagonal: Self, negligible: f64) -> Option<Self> {
                 let least = negligible as $real * diagonal.abs();
                 (self > least && self < $real::INFINITY).then(|| self.sqrt())
+            }
+
+            #[inline]
+            fn raised_root(self, diagonal: Self, negligible: f64) -> Option<Self> {
+                let least = negligible as $real * diagonal.abs();
+                let is_rounding = self.abs() <= ROUNDED as $real * diagonal.abs();
+                (is_rounding && least > 0.0 && least < $real::INFINITY).then(|| least.max(self.abs()).sqrt())
             }
 
             #[inline]
@@ -135,6 +145,11 @@ macro_rules! scalars {
                 } else {
                     Complex::new(other.abs(), if self.im < 0.0 { -half } else { half })
                 })
+            }
+
+            #[inline]
+            fn raised_root(self, _diagonal: Self, _negligible: f64) -> Option<Self> {
+                None
             }
 
             #[inline]

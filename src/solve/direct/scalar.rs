@@ -34,6 +34,9 @@ pub trait Scalar: Copy + Debug + Send + Sync + sealed::Sealed + 'static {
     /// The root of a pivot; none where the pivot is not finite, not in the half plane where a definite matrix has its
     /// pivots, or at most the fraction `negligible` of the `diagonal` entry that it came from.
     fn root(self, diagonal: Self, negligible: f64) -> Option<Self>;
+    /// The root of the least pivot that is not negligible, or of a larger one of the size of this, for a pivot that is a small part of its
+    /// entry, of any sign; none where it is no such part, and for complex numbers, which have no order.
+    fn raised_root(self, diagonal: Self, negligible: f64) -> Option<Self>;
     /// 1/self.
     fn reciprocal(self) -> Self;
 }

@@ -48,7 +48,7 @@ pub(crate) const RULES: Rules = Rules {
         ),
         ("mesh", &[&["connectivity", "geometry"], &["topology", "validate"], &["mod"], &["shapes", "submesh", "weld"]]),
         ("operators", &[&["mod"], &["intrinsic"], &["laplacian", "mass"]]),
-        ("solve", &[&["matrix", "lanes"], &["vectors", "ordering"], &["direct"], &["iterative"], &["mod"]]),
+        ("solve", &[&["matrix", "lanes", "twofold"], &["vectors", "ordering"], &["direct"], &["iterative"], &["mod"]]),
         (
             "solve/ordering",
             &[
@@ -81,7 +81,7 @@ pub(crate) const RULES: Rules = Rules {
             &[
                 &["rows"],
                 &["preconditioner"],
-                &["cg"],
+                &["cg", "nearby"],
                 &["elimination", "aggregation"],
                 &["multigrid"],
                 &["squared"],
