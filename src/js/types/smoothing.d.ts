@@ -358,7 +358,15 @@ export interface SolverReport {
    * Only the second and the fifth can do with weights that are not symmetric. Interpolation takes the second, on the pattern of L where
    * it is harmonic, the fourth or the fifth.
    */
-  route: 'complexCholesky' | 'cholesky' | 'cgComplexCholesky' | 'cgCholesky' | 'cgMultigrid' | 'cgJacobi' | 'family' | 'none';
+  route:
+    | 'complexCholesky'
+    | 'cholesky'
+    | 'cgComplexCholesky'
+    | 'cgCholesky'
+    | 'cgMultigrid'
+    | 'cgJacobi'
+    | 'family'
+    | 'none';
   /** The precision of the factor. `"doubleAfterSingle"` where single precision was asked for and was not enough. `"double"` without a factor. */
   precision: 'double' | 'single' | 'doubleAfterSingle';
   /** Size of the system; 0 for filters. */
