@@ -362,3 +362,37 @@ fn a_system_that_fails_names_a_vertex_of_the_mesh() {
     }
     assert!(refused > 20, "{refused} refused");
 }
+
+/// Triangles between any vertices fill a factor up: it would take far longer than iterations, which are taken instead, and for the next ε
+/// without an analysis. The error is at most the residual over ε, as B = I.
+#[test]
+fn a_factor_that_fills_up_is_not_computed() {
+    let n = 3000_u32;
+    let positions: Vec<f64> = noise(3 * n as usize, 4).to_vec();
+    let mut random = shapes::Random::new(9);
+    let triangles: Vec<u32> = (0..2 * n)
+        .flat_map(|_| {
+            let a = (random.uniform() * f64::from(n)) as u32;
+            let [b, c] = [1, 1000].map(|first| a + first + (random.uniform() * 900.0) as u32);
+            [a, b % n, c % n]
+        })
+        .collect();
+    let mesh = TriMesh::new(positions, triangles).unwrap();
+    let f = noise(mesh.vertex_count(), 3);
+    let mut smoother = smoother(&mesh, SmootherOptions::default());
+    let laplacian = smoother.laplacian().clone();
+    for epsilon in [1.0, 30.0] {
+        let smoothed = smoother.tikhonov(&f, &at(epsilon, Metric::Identity)).unwrap();
+        assert_eq!(smoothed.reports[0].solver.route.name(), "cgMultigrid");
+        let times = |x: &[f64]| &laplacian * &DMatrix::from_column_slice(x.len(), 1, x);
+        let image = times(times(&smoothed.values).as_slice());
+        let rest = image.iter().zip(&smoothed.values).zip(&f).map(|((l, x), f)| l + epsilon * (x - f));
+        let error = rest.map(|r| r * r).sum::<f64>().sqrt() / epsilon;
+        assert!(error < 1e-9, "ε = {epsilon}: {error:e}");
+    }
+    // A surface is no such thing.
+    let torus = shapes::torus(60, 50, 0.3).unwrap();
+    let smoothed =
+        self::smoother(&torus, SmootherOptions::default()).tikhonov(&noise(3000, 1), &at(1.0, Metric::Identity));
+    assert_eq!(smoothed.unwrap().reports[0].solver.route.name(), "complexCholesky");
+}

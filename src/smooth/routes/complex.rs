@@ -44,7 +44,7 @@ pub(super) fn solve(
     stages.begin(Phase::Solve, 0)?;
     let watch = stages.watch;
     if task.problem.is_product() {
-        let iterates = product(task, &factor, &shift, task.tolerance(precision), watch)?;
+        let iterates = product(task, &factor, &shift, precision, watch)?;
         return Ok(factors.answer(task.key, factor, iterates, Route::ComplexCholesky, None));
     }
     let pair = Pair { factor: &factor, size: shift.len() };
@@ -67,7 +67,7 @@ fn product(
     task: &Task<'_>,
     factor: &ComplexFactor,
     shift: &[f64],
-    tolerance: f64,
+    precision: Precision,
     watch: &Watch<'_>,
 ) -> Result<Vec<Iterate>, SolveError> {
     let (laplacian, n) = (task.problem.matrix, shift.len());
@@ -89,16 +89,18 @@ fn product(
         }
         rest
     };
+    let precise = |c: usize, z: &[f64]| precise_residual(laplacian, shift, &task.right_hand_sides[c].field, z);
     let refinement = Refinement {
         count: task.right_hand_sides.len(),
         length: 2 * n,
-        tolerance,
+        tolerance: task.tolerance(precision),
         // L is positive semi-definite, so |⟨z, (L + iD) z⟩| ≥ min D · ‖z‖².
         inverse_norm: shift.iter().copied().reduce(f64::min).map(f64::recip),
         start: None,
         ticks: task.problem.ticks(),
         residual: &residual,
-        precise: Some(&|c, z| precise_residual(laplacian, shift, &task.right_hand_sides[c].field, z)),
+        // A factor in single precision gives way to one in double.
+        precise: if precision == Precision::Double { Some(&precise) } else { None },
         solve: &mut |residuals, _| {
             let mut b = Vec::with_capacity(residuals.len() / 2);
             for r in residuals.chunks_exact(2 * n) {

@@ -109,6 +109,11 @@ impl<D: Scalar, S: Scalar<Wide = D::Wide>> Factors<D, S> {
         self.last = Some((key.clone(), factor));
     }
 
+    /// About how long a factorisation in double or single precision takes, in ticks.
+    pub(super) fn ticks(&self, single: bool) -> u64 {
+        if single { self.analysis.ticks::<S>() } else { self.analysis.ticks::<D>() }
+    }
+
     pub(super) fn analysis(&self) -> &CholeskyAnalysis {
         &self.analysis
     }

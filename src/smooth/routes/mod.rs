@@ -35,6 +35,12 @@ pub(super) use task::{Accuracy, Answer, FactorKey, Solutions, SolverSettings, Ta
 /// the cost of that factor grows faster. Estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
 const LARGE: usize = 400_000;
 
+/// A factor that takes so many times as long as iterations for the right-hand sides at hand is not computed: the estimates of both are
+/// rough, and the factor serves the next call, too.
+const DEAR: u64 = 4;
+/// So many times the solutions at hand are wanted of it where there are to be many.
+const MANY: u64 = 6;
+
 /// Iterations that are tried after a factor failed may take so many times as long as it, and so many ticks for each unknown: about as long
 /// as all that was done before, a few times.
 const PATIENCE: u64 = 3;
@@ -75,6 +81,8 @@ pub(super) struct Routes {
     complex: Option<ComplexFactors>,
     /// What solved the last system.
     last: Option<Solver>,
+    /// How long the factor of a way takes that was not computed for that.
+    dear: Option<(Way, u64)>,
 }
 
 /// The ways to try, the best one first.
@@ -147,6 +155,13 @@ impl Routes {
             }
         }
         let (best, others) = ways(&task.problem, task.settings);
+        if others.contains(&Way::Iterations) && self.is_dear(best, task, stages) {
+            match self.by(Way::Iterations, task, stages) {
+                Err(SolveError::Cancelled {}) => return Err(SolveError::Cancelled {}),
+                Err(_) => {}
+                solved => return solved,
+            }
+        }
         let first_failure = match self.by(best, task, stages) {
             Err(failure) => failure,
             solved => return solved,
@@ -199,10 +214,30 @@ impl Routes {
         }
     }
 
+    /// Whether a way's factor takes far longer than iterations would, as on meshes that are no surfaces: its size is known once the pattern
+    /// is analysed.
+    fn is_dear(&mut self, way: Way, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> bool {
+        let Some(iterations) = iterative::ticks(&task.problem) else { return false };
+        let single = task.settings.precision == Precision::Single;
+        let ticks = match self.dear.filter(|known| known.0 == way) {
+            Some((_, ticks)) => Ok(ticks),
+            None if matches!(way, Way::Real | Way::Raised) => {
+                self.real_route(task, stages).map(|route| route.ticks(single))
+            }
+            None => self.complex_factors(task, stages).map(|factors| factors.ticks(single)),
+        };
+        // A pattern that cannot be analysed fails as soon as the way is gone.
+        let Ok(ticks) = ticks else { return false };
+        let times = if task.settings.solutions == Solutions::Many { MANY } else { 1 };
+        let is_dear = ticks > DEAR * times * iterations * task.right_hand_sides.len() as u64;
+        self.dear = is_dear.then_some((way, ticks));
+        is_dear
+    }
+
     /// How long iterations may take where a factor failed, in ticks: a system that is too much for its factor can be so for them, too, and
     /// they would not end.
     fn budget(&self, task: &Task<'_>) -> u64 {
-        let factor = self.real.as_ref().map_or(0, RealRoute::ticks);
+        let factor = self.real.as_ref().map_or(0, |route| route.ticks(false));
         PATIENCE * factor + PATIENCE_PER_UNKNOWN * task.problem.unknowns() as u64
     }
 
@@ -222,7 +257,7 @@ impl Routes {
 
     fn tried(&mut self, way: Way, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<Answer, SolveError> {
         if way == Way::Iterations {
-            *self = Self::default();
+            *self = Self { dear: self.dear, ..Self::default() };
             stages.begin(Phase::Solve, 0)?;
             return iterative::solve(task, stages.watch);
         }
@@ -250,20 +285,32 @@ impl Routes {
         precision: Precision,
         stages: &mut Stages<'_, '_>,
     ) -> Result<Answer, SolveError> {
-        // One factor at a time: each can take most of the memory, and where it does, the analysis must go too. An error
-        // leaves the analysis, which stays valid.
-        let large = task.problem.unknowns() >= LARGE;
-        if matches!(way, Way::Real | Way::Raised) {
-            self.complex = self.complex.take().filter(|_| !large);
-            self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
-            let route = analysed(&mut self.real, &|watch| RealRoute::new(task, watch), stages)?;
-            if way == Way::Raised { route.solve_raised(task, stages) } else { route.solve(task, precision, stages) }
-        } else {
-            self.real = self.real.take().filter(|_| !large);
-            self.real.iter_mut().for_each(RealRoute::drop_factor);
-            let factors = analysed(&mut self.complex, &|watch| complex::analyse(task, watch), stages)?;
-            complex::solve(factors, task, precision, stages)
+        match way {
+            Way::Raised => self.real_route(task, stages)?.solve_raised(task, stages),
+            Way::Real => self.real_route(task, stages)?.solve(task, precision, stages),
+            _ => complex::solve(self.complex_factors(task, stages)?, task, precision, stages),
         }
+    }
+
+    // One factor at a time: each can take most of the memory, and where it does, the analysis must go too. An error leaves the analysis,
+    // which stays valid.
+
+    /// The analysis of the real route, and no other factor.
+    fn real_route(&mut self, task: &Task<'_>, stages: &mut Stages<'_, '_>) -> Result<&mut RealRoute, SolveError> {
+        self.complex = self.complex.take().filter(|_| task.problem.unknowns() < LARGE);
+        self.complex.iter_mut().for_each(ComplexFactors::drop_factor);
+        analysed(&mut self.real, &|watch| RealRoute::new(task, watch), stages)
+    }
+
+    /// The analysis of the complex routes, and no other factor.
+    fn complex_factors(
+        &mut self,
+        task: &Task<'_>,
+        stages: &mut Stages<'_, '_>,
+    ) -> Result<&mut ComplexFactors, SolveError> {
+        self.real = self.real.take().filter(|_| task.problem.unknowns() < LARGE);
+        self.real.iter_mut().for_each(RealRoute::drop_factor);
+        analysed(&mut self.complex, &|watch| complex::analyse(task, watch), stages)
     }
 }
 

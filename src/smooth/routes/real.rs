@@ -94,6 +94,7 @@ impl RealRoute {
         let factor = self.factors.take(task.key, precision, &values, stages)?;
         stages.begin(Phase::Solve, 0)?;
         let watch = stages.watch;
+        let precise = |c: usize, x: &[f64]| task.problem.precise_residual(&task.right_hand_sides[c], x);
         let refinement = Refinement {
             count: task.right_hand_sides.len(),
             length: task.problem.unknowns(),
@@ -102,7 +103,8 @@ impl RealRoute {
             inverse_norm: None,
             ticks: task.problem.ticks(),
             residual: &|c, x| task.problem.residual(&task.right_hand_sides[c], x),
-            precise: Some(&|c, x| task.problem.precise_residual(&task.right_hand_sides[c], x)),
+            // A factor in single precision gives way to one in double.
+            precise: if precision == Precision::Double { Some(&precise) } else { None },
             solve: &mut |b, _| factor.solve(b, watch),
         };
         let iterates = refine(refinement, watch)?;
@@ -127,9 +129,9 @@ impl RealRoute {
         Ok(self.factors.answer_raised(task.key, factor, iterates, eigenvalue))
     }
 
-    /// About how long a factorisation in double precision takes, in ticks.
-    pub(super) fn ticks(&self) -> u64 {
-        self.factors.analysis().ticks::<f64>()
+    /// See [`Factors::ticks`].
+    pub(super) fn ticks(&self, single: bool) -> u64 {
+        self.factors.ticks(single)
     }
 }
 
