@@ -124,6 +124,7 @@ export class MorseSmoothError extends Error {
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - any long call: `Cancelled`, where `onProgress` stopped it; `OutOfMemory` (`bytes` needed), after which everything goes on
    * - `morse-smooth/worker`: `ConnectionClosed`, `WorkerLost` (`reason`)
+   * - `morse-smooth/three`: `UnsupportedGeometry` (`reason`), `SeamDisagreement` (`vertex`, `corners`, `values`, `count`)
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`, `InstanceLost` (see {@link init})
    * - `InternalError`: a bug of ours, always worth a report
    */
