@@ -67,7 +67,7 @@ async function takeExample() {
   const { page, close } = await openPage(`${server.url}/examples/three.html`, options);
   try {
     await page.waitForSelector('canvas');
-    await page.mouse.move(THREE.width / 2, 0.55 * THREE.height);
+    await page.mouse.move(THREE.width / 2, 0.42 * THREE.height);
     await save({ page }, 'three', await page.screenshot());
   } finally {
     await close();

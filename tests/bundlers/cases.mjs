@@ -230,4 +230,39 @@ export const cases = [
       },
     ],
   },
+  {
+    name: 'three.js',
+    packages: ['three', 'vite@8', 'webpack@5', 'webpack-cli@6', 'esbuild', 'parcel@2'],
+    files: {
+      ...files.three,
+      'webpack/index.html': files.html('main.js'),
+      'esbuild/index.html': files.html('main.js', 'module'),
+    },
+    runs: [
+      { name: 'Node', command: ['node', 'node.js'] },
+      { name: 'Vite 8, dev', serve: ['vite', '--port', '$PORT', '--strictPort'] },
+      { name: 'Vite 8, build', build: [['vite', 'build', '--outDir', 'built']], open: 'built' },
+      {
+        name: 'webpack 5',
+        build: [['webpack', '--mode', 'production', '--entry', './main.js', '-o', 'webpack']],
+        open: 'webpack',
+      },
+      {
+        name: 'esbuild',
+        build: [['esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=esbuild']],
+        open: 'esbuild',
+      },
+      {
+        name: 'Parcel 2',
+        build: [['parcel', 'build', 'index.html', '--dist-dir', 'parcel', '--no-cache']],
+        open: 'parcel',
+      },
+    ],
+  },
+  {
+    name: 'three.js in Next.js 16',
+    packages: ['three', 'next@16', 'react@19', 'react-dom@19'],
+    files: files.threeInNext,
+    runs: [{ name: 'build', build: [['next', 'build']], serve: ['next', 'start', '--port', '$PORT'] }],
+  },
 ];
