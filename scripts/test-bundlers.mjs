@@ -219,7 +219,7 @@ async function reference(tarball, parent) {
   const isRight =
     page.page.area === 2 && page.oneError && connect.vertices === 3600 && connect.stopped === 'AbortError';
   if (!isDeepStrictEqual(page, again) || !isRight) throw new Problem(`The app fails in Node: ${output}`);
-  return { page, connect, serverConnect: connect, three: { ...truth, wide: 1 } };
+  return { page, connect, serverConnect: connect, three: { ...truth, wide: 1 }, deck: true };
 }
 
 function print(rows) {

@@ -265,4 +265,16 @@ export const cases = [
     files: files.threeInNext,
     runs: [{ name: 'build', build: [['next', 'build']], serve: ['next', 'start', '--port', '$PORT'] }],
   },
+  {
+    name: 'vtk.js',
+    packages: ['@kitware/vtk.js'],
+    files: files.vtk,
+    runs: [{ name: 'examples/vtk.mjs in Node', check: ['node', 'vtk-test.mjs'] }],
+  },
+  {
+    name: 'deck.gl',
+    packages: ['@deck.gl/core', '@deck.gl/layers', '@deck.gl/mesh-layers', 'vite@8'],
+    files: files.deck,
+    runs: [{ name: 'examples/deck.mjs', build: [['vite', 'build', '--outDir', 'built']], open: 'built' }],
+  },
 ];

@@ -114,6 +114,15 @@ export default function Page() {
 `,
 };
 
+/** The examples for other viewers, beside what tries them. */
+const ours = (name) => readFileSync(new URL(name, import.meta.url), 'utf8');
+const vtk = { 'vtk.mjs': ours('../../examples/vtk.mjs'), 'vtk-test.mjs': ours('vtk-test.mjs') };
+const deck = {
+  'deck.mjs': ours('../../examples/deck.mjs'),
+  'index.html': html('main.js', 'module'),
+  'main.js': ours('deck-page.js'),
+};
+
 const next = {
   ...within('app', shared),
   'app/worker.js': worker,
@@ -261,6 +270,8 @@ export const files = {
   page,
   three,
   threeInNext,
+  vtk,
+  deck,
   next,
   svelte,
   astro,
