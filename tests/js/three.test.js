@@ -1,6 +1,7 @@
 // Geometries of three.js as meshes, and fields on them. What is right follows from shapes that are known, or from three.js itself.
 import init, { MorseSmoothError as Shared, TriMesh } from 'morse-smooth';
 import * as api from 'morse-smooth/three';
+import { connect } from 'morse-smooth/worker';
 import * as three from 'three';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { expectError } from './errors.js';
@@ -106,6 +107,23 @@ describe('the mesh of a geometry', () => {
     structuredClone([positions, triangles], { transfer: [positions.buffer, triangles.buffer] });
     expect(positions).toHaveLength(0);
     expect(arraysOf(box).positions).toHaveLength(72);
+  });
+
+  it('is the same in a worker', async () => {
+    const sphere = new SphereGeometry(1, 32, 16);
+    const local = meshOf(sphere);
+    const remote = await connect();
+    const { positions, triangles } = arraysOf(sphere);
+    const weld = { tolerance: 1e-6 };
+    const mesh = await remote.createMesh(positions, triangles, { weld, transfer: true });
+    expect(positions).toHaveLength(0);
+    expect(await mesh.vertexMap()).toEqual(local.vertexMap);
+    expect(await mesh.positions()).toEqual(local.mesh.positions());
+    const heights = heightsOf(local.mesh);
+    const lines = api.levelLines(await mesh.levelSets(heights, [0.1]));
+    expect(lines.geometry).toMatchObject({ userData: api.levelLines(local.mesh.levelSets(heights, [0.1])).geometry.userData }); // prettier-ignore
+    expect(api.criticalMarkers(await mesh.criticalPoints(heights), await mesh.positions()).count).toBe(2);
+    remote.close();
   });
 
   const bare = () => new BufferGeometry();
