@@ -52,7 +52,7 @@ function bundleInputs() {
     .filter((name) => /\.(js|mjs|ts)$/.test(name))
     .map((name) => join('src', 'js', name));
   const wasm = Object.values(modules).map(({ built }) => relative(root, built));
-  const scripts = ['bundle.mjs', 'glue.mjs', 'modules.mjs'].map((name) => join('scripts', 'lib', name));
+  const scripts = ['bundle.mjs', 'glue.mjs', 'looks.mjs', 'modules.mjs'].map((name) => join('scripts', 'lib', name));
   return ['package.json', ...scripts, ...wasm, ...sources];
 }
 

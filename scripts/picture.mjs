@@ -1,5 +1,6 @@
 // Takes the README's pictures of the real page: docs/reading.webp, the Earth's geoid simplified, with its basins, its Morse complex
 // and the plots, and docs/constraints.webp, a protein's potential interpolated at its persistent critical points, with the report.
+// Also docs/three.webp, examples/three.html as it comes up.
 // (docs/sheet.png is drawn by examples/sheet.mjs.)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { NO_BROWSER, findBrowser } from './lib/browser.mjs';
@@ -11,6 +12,7 @@ import { setUp } from './setup.mjs';
 const READING = { width: 1240, height: 860 };
 /** Wide enough for the report's four columns. */
 const CONSTRAINTS = { width: 1480, height: 880 };
+const THREE = { width: 760, height: 540 };
 /** Twice the width that it is shown with, for screens with small pixels: a PNG of it would have a megabyte. */
 const SCALE = 2;
 const QUALITY = 0.8;
@@ -55,7 +57,23 @@ await main(async () => {
   } finally {
     await driver.close();
   }
+  await takeExample();
 });
+
+async function takeExample() {
+  const { openPage, serveFolder } = await import('../tests/package/browser.js');
+  const server = await serveFolder(inRoot());
+  const options = { viewport: THREE, deviceScaleFactor: SCALE };
+  const { page, close } = await openPage(`${server.url}/examples/three.html`, options);
+  try {
+    await page.waitForSelector('canvas');
+    await page.mouse.move(THREE.width / 2, 0.42 * THREE.height);
+    await save({ page }, 'three', await page.screenshot());
+  } finally {
+    await close();
+    await server.close();
+  }
+}
 
 async function save(page, name, png) {
   const picture = await webp(page.page, png);

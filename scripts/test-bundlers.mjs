@@ -7,6 +7,7 @@ import { tmpdir } from 'node:os';
 import { delimiter, dirname, join, resolve } from 'node:path';
 import { isDeepStrictEqual } from 'node:util';
 import { cases } from '../tests/bundlers/cases.mjs';
+import { truth } from '../tests/package/apps/surface.js';
 import { openPage, serveFolder } from '../tests/package/browser.js';
 import { findBrowser } from './lib/browser.mjs';
 import { Problem, main, say } from './lib/log.mjs';
@@ -16,6 +17,8 @@ import { execute, must, npm } from './lib/run.mjs';
 /** Longest time for a build and for a page to come up, in seconds. */
 const LIMIT = 240;
 const FALLBACK = 'The copy in a script';
+/** How the table says where an app ran, beside its page or its program. */
+const TOLD = { worker: 'worker', server: 'server', connect: '`connect`', serverConnect: '`connect` on the server' };
 
 /** Runs all of a case, and returns a row for each: how the modules came, or what went wrong. */
 async function runCase({ name, packages, files, runs, commonjs = false }, tarball, parent) {
@@ -148,7 +151,7 @@ async function opened(url) {
 function judged(result, how) {
   if (typeof result === 'string') return { problem: result };
   for (const [where, value] of Object.entries(result)) {
-    if (!isDeepStrictEqual(value, judged.expected))
+    if (!isDeepStrictEqual(value, judged.expected[where] ?? judged.expected.page))
       return { problem: `${where}: ${JSON.stringify(value)?.slice(0, 300)}` };
   }
   return { how, where: Object.keys(result) };
@@ -212,16 +215,17 @@ async function reference(tarball, parent) {
   const [command, parameters] = npm('install', '--no-audit', '--no-fund', '--no-save', tarball);
   await must(command, parameters, 'The package cannot be installed.', { cwd: folder });
   const output = await must(process.execPath, ['node.js'], 'The app does not run in Node.', { cwd: folder });
-  const { page, again } = JSON.parse(output);
-  if (!isDeepStrictEqual(page, again) || page.page.area !== 2 || !page.oneError)
-    throw new Problem(`The app fails in Node: ${output}`);
-  return page;
+  const { page, again, connect } = JSON.parse(output);
+  const isRight =
+    page.page.area === 2 && page.oneError && connect.vertices === 3600 && connect.stopped === 'AbortError';
+  if (!isDeepStrictEqual(page, again) || !isRight) throw new Problem(`The app fails in Node: ${output}`);
+  return { page, connect, serverConnect: connect, three: { ...truth, wide: 1 }, deck: true };
 }
 
 function print(rows) {
   console.log('\n| Where | Runs | The modules come from |\n| --- | --- | --- |');
   for (const { name, problem, how, where } of rows) {
-    const places = where?.filter((place) => place !== 'page' && place !== 'again') ?? [];
+    const places = (where ?? []).filter((place) => place in TOLD).map((place) => TOLD[place]);
     const more = places.length > 0 ? ` (${places.join(', ')} too)` : '';
     console.log(`| ${name} | ${problem ? `no: ${problem.slice(0, 200)}` : `yes${more}`} | ${how ?? ''} |`);
   }

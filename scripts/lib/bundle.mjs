@@ -4,6 +4,7 @@ import { extname, join } from 'node:path';
 import { deflateSync } from 'node:zlib';
 import { glueFactory } from './glue.mjs';
 import { Problem } from './log.mjs';
+import { looks } from './looks.mjs';
 import { modules, others } from './modules.mjs';
 import { dist, inRoot } from './paths.mjs';
 
@@ -24,14 +25,14 @@ const KINDS = {
 export async function bundle() {
   rmSync(dist, { recursive: true, force: true });
   mkdirSync(dist);
-  for (const kind of ['.js', '.cjs']) await bundleOne(join('runtime', 'error.js'), ERROR[kind]);
+  for (const kind of ['.js', '.cjs']) await bundleBeside(join('runtime', 'error-class.js'), ERROR[kind]);
   for (const [key, module] of Object.entries(modules)) {
     copyFileSync(module.built, join(dist, module.wasm));
     embed(key, module);
     for (const [output, entry] of Object.entries(module.bundles)) await bundleOne(join('entries', entry), output, key);
   }
-  for (const { bundles, standalone, embedded } of Object.values(others)) {
-    for (const [output, entry] of Object.entries(bundles)) await bundleOne(join('entries', entry), output);
+  for (const { bundles, external, standalone = {}, embedded = {} } of Object.values(others)) {
+    for (const [output, entry] of Object.entries(bundles)) await bundleBeside(join('entries', entry), output, external);
     for (const [output, entry] of Object.entries(standalone)) await bundleAlone(join('entries', entry), output);
     for (const [name, output] of Object.entries(embedded)) await embedScript(name, output, standalone[output]);
   }
@@ -54,14 +55,22 @@ function writeTypes(name, parts) {
   writeFileSync(join(dist, `${name}.d.cts`), types.replace(/'(\.\/\w+)\.js'/g, "'$1.cjs'"));
 }
 
-/** Bundles a file of src/js; the name of the output says for whom. */
+/** Bundles an entry of a module; the name of the output says for whom. */
 async function bundleOne(entry, output, key) {
   const isClassic = output.endsWith('.iife.js');
   const { platform, ...format } = KINDS[extname(output)];
-  const plugins = [...(isClassic ? [] : [sharedError(output)]), key ? parts(key, output) : embeddedFor(output)];
-  const classic = { format: 'iife', name: modules[key]?.global, extend: true };
+  const plugins = [...(isClassic ? [] : [sharedError(ERROR[extname(output)])]), parts(key, output)];
+  const classic = { format: 'iife', name: modules[key].global, extend: true };
   const written = { file: join(dist, output), ...(isClassic ? classic : format) };
-  await write(entry, platform, plugins, written, modules[key]?.wasm);
+  await write(entry, platform, plugins, written, modules[key].wasm);
+}
+
+/** Bundles an entry without a module of its own. One that imports the main entry by its name has the error's class from there. */
+async function bundleBeside(entry, output, external = []) {
+  const { platform, ...format } = KINDS[extname(output)];
+  const main = external.find((id) => id === modules.core.entry);
+  const plugins = [sharedError(main ?? ERROR[extname(output)]), embeddedFor(output), looks, leftOutside(external)];
+  await write(entry, platform, plugins, { file: join(dist, output), ...format });
 }
 
 /** Bundles a script that shares nothing with others, so that it is one file wherever it is. */
@@ -98,10 +107,17 @@ async function write(entry, platform, plugins, output, wasm) {
   }
 }
 
-const sharedError = (output) => ({
+/** Leaves the error's class in `place`. */
+const sharedError = (place) => ({
   name: 'shared-error',
-  resolveId: (id, importer) =>
-    importer && /\/error\.js$/.test(id) ? { id: ERROR[extname(output)], external: 'absolute' } : null,
+  resolveId: (id, importer) => (importer && /\/error-class\.js$/.test(id) ? { id: place, external: 'absolute' } : null),
+});
+
+/** Leaves other packages, and what is in them, to whoever uses this one. */
+const leftOutside = (packages) => ({
+  name: 'left-outside',
+  resolveId: (id) =>
+    packages.some((name) => id === name || id.startsWith(`${name}/`)) ? { id, external: true } : null,
 });
 
 /** What the entries import of the module that they are bundled for: `this:api`, `this:module`, `this:shared`, `this:embedded`. */

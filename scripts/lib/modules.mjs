@@ -47,7 +47,8 @@ const TABLE = {
 
 /**
  * Entries without a WebAssembly module of their own: `bundles`, `types` and `exports` as above. `standalone`: scripts that need no
- * other file; `embedded`: those that are also there as texts in scripts, by their names.
+ * other file; `embedded`: those that are also there as texts in scripts, by their names. `external`: packages that they import by name,
+ * this one included; others than that are optional peer dependencies.
  */
 export const others = {
   worker: {
@@ -64,6 +65,13 @@ export const others = {
         default: './dist/worker-script.js',
       },
     },
+  },
+  three: {
+    entry: 'morse-smooth/three',
+    bundles: { 'three.js': 'three.js', 'three.cjs': 'three.js' },
+    external: ['morse-smooth', 'three'],
+    types: { three: ['three'] },
+    exports: { './three': exported('three', 'three', false) },
   },
 };
 

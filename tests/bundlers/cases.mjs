@@ -230,4 +230,51 @@ export const cases = [
       },
     ],
   },
+  {
+    name: 'three.js',
+    packages: ['three', 'vite@8', 'webpack@5', 'webpack-cli@6', 'esbuild', 'parcel@2'],
+    files: {
+      ...files.three,
+      'webpack/index.html': files.html('main.js'),
+      'esbuild/index.html': files.html('main.js', 'module'),
+    },
+    runs: [
+      { name: 'Node', command: ['node', 'node.js'] },
+      { name: 'Vite 8, dev', serve: ['vite', '--port', '$PORT', '--strictPort'] },
+      { name: 'Vite 8, build', build: [['vite', 'build', '--outDir', 'built']], open: 'built' },
+      {
+        name: 'webpack 5',
+        build: [['webpack', '--mode', 'production', '--entry', './main.js', '-o', 'webpack']],
+        open: 'webpack',
+      },
+      {
+        name: 'esbuild',
+        build: [['esbuild', 'main.js', '--bundle', '--format=esm', '--outdir=esbuild']],
+        open: 'esbuild',
+      },
+      {
+        name: 'Parcel 2',
+        build: [['parcel', 'build', 'index.html', '--dist-dir', 'parcel', '--no-cache']],
+        open: 'parcel',
+      },
+    ],
+  },
+  {
+    name: 'three.js in Next.js 16',
+    packages: ['three', 'next@16', 'react@19', 'react-dom@19'],
+    files: files.threeInNext,
+    runs: [{ name: 'build', build: [['next', 'build']], serve: ['next', 'start', '--port', '$PORT'] }],
+  },
+  {
+    name: 'vtk.js',
+    packages: ['@kitware/vtk.js'],
+    files: files.vtk,
+    runs: [{ name: 'examples/vtk.mjs in Node', check: ['node', 'vtk-test.mjs'] }],
+  },
+  {
+    name: 'deck.gl',
+    packages: ['@deck.gl/core', '@deck.gl/layers', '@deck.gl/mesh-layers', 'vite@8'],
+    files: files.deck,
+    runs: [{ name: 'examples/deck.mjs', build: [['vite', 'build', '--outDir', 'built']], open: 'built' }],
+  },
 ];

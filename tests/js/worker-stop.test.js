@@ -217,6 +217,33 @@ describe.each(ways)('%s', (_, buffer) => {
     other.free();
   });
 
+  it('`latest` takes the place of a call that runs and cannot be asked, unless it is over soon', async () => {
+    const scene = await remote.createScene(shape.positions, shape.triangles);
+    // The module of the pictures is there, and a small picture is drawn soon.
+    const small = { width: 40, height: 30, levels: [], criticalPoints: false };
+    const first = await scene.snapshot(values, { ...small, latest: true });
+    const large = { ...small, width: 3000, height: 2000 };
+    const slow = settled(scene.snapshot(values, { ...large, latest: true }));
+    await pause(100);
+    const start = performance.now();
+    const next = scene.snapshot(values, { ...small, latest: true });
+    const { reason, time } = await slow;
+    expect(reason?.name).toBe('AbortError');
+    expect(time).toBeLessThan(AT_ONCE + 400);
+    expect(same(await next, first)).toBe(true);
+    // It took the place of one that would have gone on for longer.
+    const taken = performance.now() - start;
+    const whole = await settled(scene.snapshot(values, large));
+    expect(whole.value.length).toBeGreaterThan(first.length);
+    expect(taken).toBeLessThan(whole.time);
+    const quick = [1, 2].map(() => outcomeOf(scene.surface({ latest: true })));
+    await pause(10);
+    quick.push(outcomeOf(scene.surface({ latest: true })));
+    const [, , last] = await Promise.all(quick);
+    expect(last.reason).toBe(undefined);
+    scene.free();
+  });
+
   it('objects are as they were, also a family that has grown', async () => {
     const options = { tolerance: 1e-9, factorizations: 1, epsilonRange: [0.1, 1] };
     const { positions, triangles } = square(40);

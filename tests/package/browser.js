@@ -6,11 +6,11 @@ import { chromium } from 'playwright-core';
 
 /**
  * Opens a page in a browser of its own: `{ page, problems, messages, close }`. `problems` collects what goes wrong in the page:
- * exceptions, errors in the console, failed requests; `messages` all that the console says.
+ * exceptions, errors in the console, failed requests; `messages` all that the console says. `options` are those of Playwright's pages.
  */
-export async function openPage(url) {
+export async function openPage(url, options = {}) {
   const browser = await chromium.launch({ executablePath: process.env.CHROME_PATH, args: ['--no-sandbox'] });
-  const page = await browser.newPage();
+  const page = await browser.newPage(options);
   const problems = [];
   const messages = [];
   page.on('pageerror', (error) => problems.push(String(error)));

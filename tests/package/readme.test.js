@@ -25,10 +25,11 @@ it('shows ten lines of JavaScript that run', () => {
   expect(more).toEqual([example]);
   expect(read('examples', 'prescribe.mjs')).toContain(first);
   // The other pages show parts of other examples.
-  const others = ['constraints', 'prescribe', 'sheet', 'worker']
+  const others = ['constraints', 'prescribe', 'sheet', 'worker', 'vtk', 'deck']
     .map((name) => read('examples', `${name}.mjs`))
+    .concat(read('examples', 'three.html').replace(/^ {2}/gm, ''))
     .join('');
-  const blocks = ['methods', 'pictures', 'files', 'loading', 'worker'].flatMap((page) =>
+  const blocks = ['methods', 'pictures', 'files', 'loading', 'worker', 'viewers'].flatMap((page) =>
     blocksOf('docs', `${page}.md`),
   );
   expect(blocks.length).toBeGreaterThan(1);

@@ -1,6 +1,6 @@
 // The entry `morse-smooth/worker` for Node, bundled once for `import` and once for `require`. It needs no file: the worker's script and
 // the modules come out of scripts, whoever bundles this and wherever to.
-import { Worker } from 'node:worker_threads';
+import { MessageChannel, Worker } from 'node:worker_threads';
 import { packed as core } from 'embedded:core';
 import { packed as files } from 'embedded:files';
 import { packed as snapshot } from 'embedded:snapshot';
@@ -13,6 +13,8 @@ export { MorseSmoothError } from '../runtime/error.js';
 export const connect = connectorOf({
   // Without the flags of the program, one of which may say that scripts are modules.
   makers: [() => new Worker(script, { eval: true, execArgv: [] })],
+  // Not the global: what plays a browser in a test, such as jsdom, has none.
+  channel: () => new MessageChannel(),
   sources: {
     core: (target) => target.start(unpacked(core)),
     files: (target) => target.start(unpacked(files)),

@@ -19,6 +19,7 @@ export const connect = connectorOf({
     () => new Worker(new URL('./worker-script.js', import.meta.url), { type: 'module' }),
     ...(import.meta.env?.PROD ? [] : [async () => new Worker(await embedded())]),
   ],
+  channel: () => new MessageChannel(),
   sources: {
     core: (target) =>
       loaderOf(target)(

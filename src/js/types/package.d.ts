@@ -17,8 +17,11 @@
 export type Integers = Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array;
 /** Numbers as they are taken. The entries of an ordinary array must all be of type `number` (otherwise `InvalidArgument`). */
 export type Numbers = Float64Array | Float32Array | Integers | readonly number[];
-/** Vertex numbers as they are taken: whole, from 0 to 2³² − 1 (otherwise `IndexOutOfBounds`). */
-export type Ids = Integers | readonly number[];
+/**
+ * Vertex numbers as they are taken: whole, from 0 to 2³² − 1 (otherwise `IndexOutOfBounds`). Arrays of floating-point numbers are refused
+ * (`InvalidArgument`); they are among the types because TypeScript does not know of the `array` of an index of three.js that it is none.
+ */
+export type Ids = Numbers;
 
 // Arrays as they come out. Their memory is the caller's own and shared with no other thread: since TypeScript 5.7 their types say so
 // (`Float64Array<ArrayBuffer>`), and older ones know no such type.
@@ -121,6 +124,7 @@ export class MorseSmoothError extends Error {
    * - calls: `UnknownOption`, `InvalidOption`, `InapplicableOption`, `UnsupportedOption`, `InvalidArgument`
    * - any long call: `Cancelled`, where `onProgress` stopped it; `OutOfMemory` (`bytes` needed), after which everything goes on
    * - `morse-smooth/worker`: `ConnectionClosed`, `WorkerLost` (`reason`)
+   * - `morse-smooth/three`: `UnsupportedGeometry` (`reason`), `SeamDisagreement` (`vertex`, `corners`, `values`, `count`)
    * - life of objects: `NotInitialized`, `LoadFailed`, `UseAfterFree`, `Busy`, `InstanceLost` (see {@link init})
    * - `InternalError`: a bug of ours, always worth a report
    */

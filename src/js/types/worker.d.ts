@@ -82,7 +82,8 @@ export interface CallOptions {
   onProgress?: (progress: Progress) => void | boolean;
   /**
    * Whether this call takes the place of an earlier one of the same method on the same object that had `latest`, too, whether that
-   * waits or runs: that one fails with an `AbortError`, unless it runs and has no `onProgress`. For sliders. Default false.
+   * waits or runs: that one fails with an `AbortError`. (One of a method without `onProgress` may give its answer if it takes no more than
+   * 100 ms from then on.) For sliders. Default false.
    */
   latest?: boolean;
   /**

@@ -52,8 +52,8 @@ function checked(options) {
 }
 
 /** How the workers of one connection are made: by the caller, who then may keep the only one. */
-function hostOf({ makers, watch, hold, end }, worker) {
-  const shared = { watch, hold, end };
+function hostOf({ makers, channel, watch, hold, end }, worker) {
+  const shared = { channel, watch, hold, end };
   if (worker === undefined) return { ...shared, makers, isOwner: true, isOurs: true };
   const isOwner = typeof worker === 'function';
   return { ...shared, makers: [isOwner ? worker : () => worker], isOwner, isOurs: false };

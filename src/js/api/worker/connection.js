@@ -13,6 +13,12 @@ import { Thread } from './thread.js';
  */
 const PATIENCE = { asked: 300, silent: 40 };
 
+/**
+ * How many milliseconds a superseded call may still take that cannot be asked to stop. Most are over sooner and give their answer, so that
+ * a slider which moves faster than that does not stand still.
+ */
+const GRACE = 100;
+
 /** Codes after which nothing that lives in the worker can be used. */
 const DISORDER = ['InternalError', 'InstanceLost'];
 
@@ -231,14 +237,15 @@ export class Connection {
     this.close(error);
   }
 
-  /** Lets a call take the place of its like. One that runs and cannot be asked to stop may as well give its answer. */
+  /** Lets a call take the place of its like. One that runs and cannot be asked to stop may give its answer, if it does so soon. */
   #supersede(job) {
-    const running = [...this.#threads].flatMap(({ job }) => (job?.call.isWatched ? job : []));
+    const running = [...this.#threads].flatMap(({ job }) => job ?? []);
     for (const other of [...this.#queue, ...running]) {
-      if (other.isLatest && !other.isSettled && other.isLike(job)) {
-        // To end the worker is no gain where that takes longer than what is left of the call.
-        this.#drop(other, superseded(), other.thread?.cost);
-      }
+      if (!other.isLatest || other.isSettled || !other.isLike(job)) continue;
+      // To end the worker is no gain where that takes longer than what is left of the call.
+      const drop = () => this.#drop(other, superseded(), other.thread?.cost);
+      if (other.thread === null || other.call.isWatched) drop();
+      else setTimeout(drop, GRACE);
     }
   }
 

@@ -64,6 +64,14 @@ function ownState(proxy, kind) {
   return state;
 }
 
+/** A copy of numbers, arrays and records. (jsdom has no `structuredClone`.) */
+function copyOf(value) {
+  if (ArrayBuffer.isView(value)) return value.slice();
+  if (Array.isArray(value)) return value.map(copyOf);
+  if (typeof value !== 'object' || value === null) return value;
+  return Object.fromEntries(Object.entries(value).map(([name, entry]) => [name, copyOf(entry)]));
+}
+
 /** The methods and properties of a class, from the table. */
 function prototypeOf(kind, { facts, methods }) {
   const prototype = {
@@ -84,7 +92,7 @@ function prototypeOf(kind, { facts, methods }) {
     // A copy, as everywhere: the caller may change it.
     Object.defineProperty(prototype, fact, {
       get() {
-        return structuredClone(alive(ownState(this, kind)).facts[fact]);
+        return copyOf(alive(ownState(this, kind)).facts[fact]);
       },
       configurable: true,
     });

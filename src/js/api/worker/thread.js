@@ -131,8 +131,9 @@ export class Thread {
   }
 
   #greet(worker, code) {
-    const { port1, port2 } = new MessageChannel();
+    // First of all, so that it is ended should anything fail.
     this.#worker = worker;
+    const { port1, port2 } = this.#host.channel();
     this.#port = port1;
     return new Promise((resolve, reject) => {
       this.#unwatch = this.#host.watch(worker, (reason, isEnd) => {

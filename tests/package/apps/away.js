@@ -1,0 +1,5 @@
+// The app of users of workers.
+import * as api from 'morse-smooth/worker';
+import { remote } from './remote.js';
+
+export const away = () => remote(api);
