@@ -25,6 +25,11 @@ export const lints = [
     command: 'cargo',
     parameters: clippy(...WASM, ...cargoFeatures(module)),
   })),
+  {
+    name: 'rustdoc, its links',
+    command: 'cargo',
+    parameters: ['rustdoc', '--quiet', '--locked', '--lib', '--features', 'render,serde', '--', '--deny', 'warnings'],
+  },
   { name: 'prettier', command: node, parameters: [prettier, '--check', '--log-level=warn', '.'] },
 ];
 

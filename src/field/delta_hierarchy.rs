@@ -85,7 +85,7 @@ impl OnMesh for DeltaHierarchy {
 ///
 /// # Properties
 /// Agrees with `critical_points` to the last bit: the relative δ are the least doubles t for which t · D, rounded, is not below
-/// the absolute ones, where D is [`largest_edge_difference`]. One pass over the triangles, and a sort.
+/// the absolute ones, where D is [`largest_edge_difference`](super::largest_edge_difference). One pass over the triangles, and a sort.
 ///
 /// # Errors
 /// `Cancelled`, `OutOfMemory`.

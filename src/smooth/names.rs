@@ -50,6 +50,7 @@ named! { Equation {
 
 /// How a system was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Route {
     /// By a complex factor on the pattern of L.
     ComplexCholesky,

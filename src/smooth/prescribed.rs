@@ -20,6 +20,7 @@ named! { PrescribeRoute { InteriorPoint = "interiorPoint", Dual = "dual", Previe
 /// Energies are ‖Lx‖² + ε‖x − f‖² of the normalised field, in the operator and the norm of the method.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[non_exhaustive]
 pub struct PrescribedReport {
     /// The minima of the result, ascending: the chosen ones and those that are unavoidable.
     pub minima: Vec<u32>,

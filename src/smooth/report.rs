@@ -37,6 +37,7 @@ pub struct Smoothed {
 /// *after* about all that have one now.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[non_exhaustive]
 pub struct SmoothReport {
     /// The method.
     pub method: MethodName,
@@ -84,6 +85,7 @@ pub struct SmoothReport {
 /// How a system was solved.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[non_exhaustive]
 pub struct SolverReport {
     /// The route that led to the solution.
     pub route: Route,

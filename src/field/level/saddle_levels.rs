@@ -17,7 +17,7 @@ use crate::support::watch::{Phase, Watch};
 ///
 /// # Properties
 /// Ascending, each level once, so fewer than two for each value where values or levels coincide. The vertices need not be saddles.
-/// By default every saddle of [`critical_points`](super::critical_points) at δ = 0 is taken.
+/// By default every saddle of [`critical_points`](crate::field::critical_points) at δ = 0 is taken.
 ///
 /// # Errors
 /// `IndexOutOfBounds` for a vertex that does not exist; `InvalidOption` where

@@ -19,7 +19,7 @@ use crate::smooth::system::Matrices;
 use crate::support::memory;
 use crate::support::watch::{Phase, Watch};
 
-/// The smoothed fields for all ε of a range: see [`Smoother::family`](super::Smoother::family).
+/// The smoothed fields for all ε of a range: see [`Smoother::family`](crate::smooth::Smoother::family).
 #[derive(Debug)]
 pub struct Family {
     pub(super) field: Field,
