@@ -64,6 +64,7 @@ mod solve_watch;
 mod stopping;
 mod support;
 mod thin;
+mod thresholds;
 #[cfg(feature = "render")]
 mod ticks;
 mod weld;

@@ -87,7 +87,9 @@ pub(super) struct Routes {
 
 /// The ways to try, the best one first.
 fn ways(problem: &Problem<'_>, settings: SolverSettings) -> (Way, &'static [Way]) {
-    let is_squaring_dear = problem.unknowns() >= LARGE && settings.solutions == Solutions::Few;
+    // Where some unknowns are beyond the data term, the product is a rough preconditioner, with hundreds of iterations.
+    let is_rough = problem.data().is_some_and(|data| data.mass.has_gaps());
+    let is_squaring_dear = problem.unknowns() >= LARGE && settings.solutions == Solutions::Few && !is_rough;
     // Where the product (A + iD) W (A − iD) is near the system, if not the system itself.
     let is_near_product = problem.data().is_some() && problem.symmetric_part().is_some();
     match (settings.choice, problem.is_product()) {
