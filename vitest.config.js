@@ -36,7 +36,16 @@ export default defineConfig({
           },
         },
       },
-      { extends: true, test: { name: 'page', include: ['tests/browser/**/*.test.{js,ts}'], fileParallelism: false } },
+      {
+        extends: true,
+        test: {
+          name: 'page',
+          include: ['tests/browser/**/*.test.{js,ts}'],
+          // Without a graphics card, beside other work, a page takes seconds for what takes a moment elsewhere.
+          testTimeout: 5 * MINUTE,
+          fileParallelism: false,
+        },
+      },
       {
         extends: true,
         test: {

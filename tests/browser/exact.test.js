@@ -191,11 +191,13 @@ test('extrema of the smoothed field are those that smoothing leaves', async () =
   expect(await page.counts('after')).toEqual(countsOf(result.report.after));
   expect(await page.ringed()).toEqual(vertices(result));
   await expectReport(page, result);
-  // Dots of the input are looked at only.
+  // Dots of the input are looked at only: their pairs are lit.
+  const counts = await page.counts('after');
   await page.at('diagram').focus();
   await page.page.keyboard.press('Home');
   await page.page.keyboard.press('Enter');
-  expect(await page.state()).toBe('ready');
+  expect(await page.settled()).toBe('ready');
+  expect(await page.counts('after')).toEqual(counts);
   expect(await page.at('reset-pairs').isDisabled()).toBe(true);
 });
 
