@@ -87,7 +87,7 @@ describe('constraints by rule', () => {
     expect(await page.text('after')).toMatch(/No vertex is picked yet\. Click on the surface/);
     await page.at('tab-points').click();
     await page.after(() => page.page.getByLabel('Constrain vertex 1', { exact: true }).click());
-    expect(await page.state()).toBe('ready');
+    expect(await page.settled()).toBe('ready');
     expect(await page.text('after')).toMatch(
       /Component 2 of 2 of the mesh has no constrained vertex \(vertex 4 lies in it\).*Constrain one of its vertices.*“Components without constraints”/,
     );
@@ -151,7 +151,7 @@ describe('constraints by hand', () => {
     const [x, y] = await spot();
     await page.page.mouse.click(x, y);
     expect(await page.ringed()).toEqual([]);
-    expect(await page.state()).toBe('ready');
+    expect(await page.settled()).toBe('ready');
   });
 
   test('rings are drawn on both surfaces', async () => {

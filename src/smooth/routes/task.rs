@@ -75,8 +75,20 @@ impl Task<'_> {
     /// system is a product, else √(ε·b/w) with the row sums b of B.
     pub(super) fn shift(&self) -> Vec<f64> {
         let n = self.problem.unknowns();
-        let Some(data) = self.problem.data() else { return vec![0.0; n] };
+        let Some(data) = self.problem.data() else {
+            let held = self.problem.matrix.nrows() - n;
+            let all = std::env::var("PIN").map_or(0.0, |c| c.parse::<f64>().unwrap()).sqrt() * held as f64 / n as f64;
+            return vec![all.sqrt() * all.sqrt(); n];
+        };
         let root = data.epsilon.sqrt();
+        if data.mass.has_gaps() && std::env::var("PIN").is_ok() {
+            let c = std::env::var("PIN").unwrap().parse::<f64>().unwrap();
+            let b: Vec<f64> = (0..n).map(|i| data.mass.diagonal(i)).collect();
+            let share = b.iter().filter(|b| **b > 0.0).count() as f64 / n as f64;
+            let mean = b.iter().sum::<f64>() / n as f64;
+            let all = 1.0 / (1.0 / (data.epsilon * mean) + 1.0 / (c * share * share));
+            return b.iter().map(|b| (all + data.epsilon * b).sqrt()).collect();
+        }
         let sums = match data.mass {
             Mass::Identity => return vec![root; n],
             Mass::Diagonal(masses) if self.problem.is_product() => return masses.iter().map(|m| root * m).collect(),
