@@ -263,8 +263,10 @@ impl Routes {
             stages.begin(Phase::Solve, 0)?;
             return iterative::solve(task, stages.watch);
         }
-        if task.settings.precision == Precision::Single && way != Way::Raised {
-            match self.factored(way, task, Precision::Single, stages) {
+        if task.settings.precision == Precision::Single {
+            // Single precision has no pivots that can be raised.
+            let single = (way != Way::Raised).then(|| self.factored(way, task, Precision::Single, stages));
+            match single.unwrap_or(Err(SolveError::NotConverged { iterations: 0, residual: 1.0 })) {
                 Ok(answer) => return Ok(answer),
                 // Single precision was not enough for this matrix.
                 Err(
