@@ -12,6 +12,9 @@ pub enum Detail {
     Real(f64),
     /// A name or a piece of the input.
     Text(String),
+    /// Names.
+    #[cfg(feature = "files")]
+    Texts(Vec<String>),
 }
 
 impl From<u32> for Detail {
@@ -47,5 +50,11 @@ impl From<String> for Detail {
 impl From<&'static str> for Detail {
     fn from(value: &'static str) -> Self {
         Self::Text(value.to_owned())
+    }
+}
+#[cfg(feature = "files")]
+impl From<Vec<String>> for Detail {
+    fn from(value: Vec<String>) -> Self {
+        Self::Texts(value)
     }
 }

@@ -31,6 +31,7 @@ mod intrinsic;
 mod intrinsic_properties;
 mod io_malformed;
 mod io_read;
+mod io_reported;
 mod io_tables;
 mod io_write;
 mod iterative;

@@ -13,6 +13,12 @@ pub(super) enum ArrayType {
     Text,
 }
 
+impl ArrayType {
+    pub(super) fn is_real(self) -> bool {
+        matches!(self, Self::Number(NumberType::F32 | NumberType::F64))
+    }
+}
+
 /// Numbers whose bytes are known to be there, and at which the text stands.
 #[derive(Debug)]
 #[must_use]
