@@ -132,6 +132,7 @@ pub fn load_arrays(bytes: &[u8], options: &LoadOptions) -> Result<LoadedArrays> 
 
 /// For each of `count` vertices the first that became it, by its number in the file.
 fn first_of_each(map: &[u32], count: usize, file_vertices: Option<&[u32]>) -> Result<Vec<u32>> {
+    memory::ensure(4 * count as u64)?;
     let mut first = memory::with_room(count)?;
     for (vertex, &new) in map.iter().enumerate() {
         if new as usize == first.len() {

@@ -41,6 +41,11 @@ stage_error! {
             /// What was being read.
             expected: String,
         } => "the file ends at line {line} where {expected} was expected",
+        /// Binary or packed data that cannot be what they should.
+        DamagedData {
+            /// What is wrong.
+            problem: String,
+        } => "{problem}",
         /// Something else stands where a number should.
         InvalidNumber {
             /// 1-based line.
@@ -113,7 +118,7 @@ stage_error! {
         FieldsNotSupported {
             /// The format's name.
             format: String,
-        } => "`{format}` files cannot hold fields; write PLY or VTK, or no fields",
+        } => "`{format}` files cannot hold fields; write PLY, VTK or VTP, or no fields",
         /// The format has no binary variety that can be written.
         BinaryNotSupported {
             /// The format's name.

@@ -3,9 +3,8 @@
 use super::mesh_data::{MeshData, MeshFormat};
 use super::names::Names;
 use super::polygon::{self, Shape};
-use super::scan::{push, reserve, room};
+use super::scan::{filled, push, reserve, room, with_room};
 use crate::error::{Diagnostic, ParseError};
-use crate::support::memory;
 
 /// Counts things of a kind and keeps the first few.
 #[derive(Debug, Default)]
@@ -145,6 +144,49 @@ impl Assembly {
         self.face_fields.push((unique, values));
     }
 
+    /// Adds values to a field whose pieces come one after the other; these are of the vertices from `first`. What earlier pieces did not
+    /// have is missing.
+    pub(super) fn more_of_field(&mut self, name: &str, first: u64, values: Vec<f64>) -> Result<(), ParseError> {
+        match self.fields.iter_mut().find(|(other, _)| other == name).filter(|_| first > 0) {
+            Some((_, all)) => extend(all, first, &values),
+            None if first == 0 => {
+                self.field(name, values);
+                Ok(())
+            }
+            None => {
+                let mut all = Vec::new();
+                extend(&mut all, first, &values)?;
+                self.field(name, all);
+                Ok(())
+            }
+        }
+    }
+
+    /// Adds values to a field on faces, as [`Self::more_of_field`] does.
+    pub(super) fn more_of_face_field(&mut self, name: &str, first: u64, values: Vec<f64>) -> Result<(), ParseError> {
+        match self.face_fields.iter_mut().find(|(other, _)| other == name).filter(|_| first > 0) {
+            Some((_, all)) => extend(all, first, &values),
+            None if first == 0 => {
+                self.face_field(name, values);
+                Ok(())
+            }
+            None => {
+                let mut all = Vec::new();
+                extend(&mut all, first, &values)?;
+                self.face_field(name, all);
+                Ok(())
+            }
+        }
+    }
+
+    /// Fields that the last pieces did not have are missing there.
+    pub(super) fn fill_up(&mut self) -> Result<(), ParseError> {
+        let vertices = (self.positions.len() / 3) as u64;
+        self.fields.iter_mut().try_for_each(|(_, values)| extend(values, vertices, &[]))?;
+        let faces = self.faces;
+        self.face_fields.iter_mut().try_for_each(|(_, values)| extend(values, faces, &[]))
+    }
+
     fn note_name(&mut self, name: &str, unique: &str) {
         if unique != name {
             self.warn("RenamedField", format!("a second field `{name}` was renamed `{unique}`"), 1);
@@ -259,7 +301,7 @@ impl Assembly {
             return Ok(None);
         }
         let count = self.positions.len() / 3;
-        let mut new_ids = memory::filled(u32::MAX, count)?;
+        let mut new_ids = filled(u32::MAX, count)?;
         for &corner in &self.triangles {
             new_ids[corner as usize] = 0;
         }
@@ -305,7 +347,7 @@ impl Assembly {
         }
         let count = self.triangles.len() / 3;
         for (_, values) in &mut self.face_fields {
-            let mut spread = memory::with_room(count)?;
+            let mut spread = with_room(count)?;
             let mut next = 0;
             for &Uneven { face, triangles } in &self.uneven {
                 spread.extend_from_slice(&values[next..face as usize]);
@@ -318,6 +360,15 @@ impl Assembly {
         }
         Ok(())
     }
+}
+
+/// Adds values that begin at a place; what is missing before it is NaN.
+fn extend(all: &mut Vec<f64>, first: u64, values: &[f64]) -> Result<(), ParseError> {
+    let missing = (first as usize).saturating_sub(all.len());
+    room(all, missing + values.len())?;
+    all.extend((0..missing).map(|_| f64::NAN));
+    all.extend_from_slice(values);
+    Ok(())
 }
 
 /// Fails when 32-bit ids cannot name `count` elements.

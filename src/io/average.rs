@@ -1,9 +1,8 @@
 //! Fields on triangles as fields on vertices.
 
 use super::names::Names;
-use super::scan::{push, reserve};
+use super::scan::{filled, push, reserve};
 use crate::error::{Diagnostic, ParseError};
-use crate::support::memory;
 
 /// Adds to `fields` the mean of every field on triangles, weighted by the areas of the triangles around a vertex. Missing values do not
 /// count; a vertex without triangles has none. Returns the warning that says so.
@@ -28,8 +27,8 @@ pub fn average_on_vertices(
     }
     let mut added = String::new();
     for (name, values) in triangle_fields {
-        let mut sums = memory::filled(0.0, count)?;
-        let mut weights = memory::filled(0.0, count)?;
+        let mut sums = filled(0.0, count)?;
+        let mut weights = filled(0.0, count)?;
         for ((corners, &value), &area) in triangles.chunks_exact(3).zip(values).zip(&areas) {
             if value.is_nan() {
                 continue;

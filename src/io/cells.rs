@@ -2,9 +2,8 @@
 //! volume the outer surface does.
 
 use super::assembly::Assembly;
-use super::scan::push;
+use super::scan::{push, with_room};
 use crate::error::ParseError;
-use crate::support::memory;
 
 /// What a cell's type means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -207,9 +206,9 @@ impl Cells {
                     assembly.corner(corners[place], self.vertices)?;
                 }
                 if kind == Kind::Strip {
-                    assembly.close_strip()?
+                    assembly.close_strip()?;
                 } else {
-                    assembly.close_polygon()?
+                    assembly.close_polygon()?;
                 }
                 push(&mut self.of_face, cell)?;
             }
@@ -287,10 +286,20 @@ impl Cells {
 
     /// Adds a field with one value per cell.
     pub(super) fn field(&self, assembly: &mut Assembly, name: &str, values: &[f64]) -> Result<(), ParseError> {
-        let mut of_faces = memory::with_room(self.of_face.len())?;
+        self.field_from(assembly, name, 0, values)
+    }
+
+    /// Adds a field with one value per cell of a piece whose faces begin at `first`.
+    pub(super) fn field_from(
+        &self,
+        assembly: &mut Assembly,
+        name: &str,
+        first: u64,
+        values: &[f64],
+    ) -> Result<(), ParseError> {
+        let mut of_faces = with_room(self.of_face.len())?;
         of_faces.extend(self.of_face.iter().map(|&cell| values.get(cell as usize).copied().unwrap_or(f64::NAN)));
-        assembly.face_field(name, of_faces);
-        Ok(())
+        assembly.more_of_face_field(name, first, of_faces)
     }
 }
 

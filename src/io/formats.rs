@@ -2,22 +2,22 @@
 
 use super::format::{Format, FormatInfo};
 use super::mesh_data::MeshFormat;
-use super::{obj, off, ply, vtk};
+use super::{esri, freesurfer, gifti, gltf, gmsh, obj, off, ply, stl, vtk, vtkxml};
 
 /// Makes of one list what is asked of it: the constant of each format, and what users are told.
 macro_rules! list {
-    ($($variant:ident => $module:ident),* $(,)?) => {
+    ($($variant:ident => $format:expr),* $(,)?) => {
         impl MeshFormat {
             /// What there is of a format.
             pub(super) const fn format(self) -> &'static Format {
                 match self {
-                    $(Self::$variant => &$module::FORMAT,)*
+                    $(Self::$variant => &$format,)*
                 }
             }
         }
 
         const INFO: &[FormatInfo] = &[
-            $($module::FORMAT.info(),)*
+            $($format.info(),)*
             table("csv", &["csv", "tsv"], "Columns with commas, semicolons, tabs or bars between them, with or without a header"),
             table("txt", &["txt", "xyz", "dat"], "Columns or numbers with blanks between them"),
             table("npy", &["npy"], "Arrays of NumPy"),
@@ -26,10 +26,18 @@ macro_rules! list {
     };
 }
 list! {
-    Obj => obj,
-    Off => off,
-    Ply => ply,
-    Vtk => vtk,
+    Obj => obj::FORMAT,
+    Off => off::FORMAT,
+    Ply => ply::FORMAT,
+    Stl => stl::FORMAT,
+    Vtk => vtk::FORMAT,
+    Vtp => vtkxml::VTP,
+    Vtu => vtkxml::VTU,
+    Glb => gltf::FORMAT,
+    Msh => gmsh::FORMAT,
+    Gii => gifti::FORMAT,
+    FreeSurfer => freesurfer::FORMAT,
+    Asc => esri::FORMAT,
 }
 
 const fn table(name: &'static str, extensions: &'static [&'static str], description: &'static str) -> FormatInfo {

@@ -15,12 +15,29 @@ pub enum MeshFormat {
     Off,
     /// Polygon file format.
     Ply,
+    /// Stereolithography.
+    Stl,
     /// VTK legacy data sets.
     Vtk,
+    /// VTK XML surfaces.
+    Vtp,
+    /// VTK XML unstructured grids.
+    Vtu,
+    /// glTF.
+    Glb,
+    /// GMSH's own.
+    Msh,
+    /// GIFTI.
+    Gii,
+    /// Surfaces of FreeSurfer.
+    FreeSurfer,
+    /// ESRI ASCII grids.
+    Asc,
 }
 
 named! { MeshFormat any case {
-    Obj = "obj", Off = "off", Ply = "ply", Vtk = "vtk",
+    Obj = "obj", Off = "off", Ply = "ply", Stl = "stl", Vtk = "vtk", Vtp = "vtp", Vtu = "vtu",
+    Glb = "glb", Msh = "msh", Gii = "gii", FreeSurfer = "freesurfer", Asc = "asc",
 } }
 
 impl FromStr for MeshFormat {

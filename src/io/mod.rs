@@ -9,21 +9,32 @@ mod assembly;
 mod average;
 mod cells;
 mod cursor;
+mod esri;
 mod format;
 mod formats;
+mod freesurfer;
+mod gifti;
+mod gltf;
+mod gmsh;
+mod json;
 mod mesh_data;
 mod names;
+mod npy;
 mod number;
 mod obj;
 mod off;
+mod packed;
 mod ply;
 mod polygon;
 mod recognise;
 mod scan;
+mod stl;
 mod table;
 mod vtk;
+mod vtkxml;
 mod write;
 mod writing;
+mod xml;
 
 pub use average::average_on_vertices;
 pub use format::FormatInfo;
@@ -65,6 +76,7 @@ pub struct ReadOptions {
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn read_mesh(bytes: &[u8], options: &ReadOptions) -> Result<MeshData, ParseError> {
+    let bytes = &*packed::unpack(bytes)?;
     if scan::without_byte_order_mark(bytes).trim_ascii().is_empty() {
         return Err(ParseError::EmptyFile {});
     }

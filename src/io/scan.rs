@@ -275,6 +275,20 @@ pub(super) fn reserve<T>(vector: &mut Vec<T>, additional: usize) -> Result<(), P
     vector.try_reserve_exact(additional).map_err(|_| ParseError::OutOfMemory { bytes })
 }
 
+/// `count` copies of an element, or an error instead of an abort.
+pub(super) fn filled<T: Clone>(element: T, count: usize) -> Result<Vec<T>, ParseError> {
+    let mut vector = with_room(count)?;
+    vector.resize(count, element);
+    Ok(vector)
+}
+
+/// An empty vector with room for `count` elements, or an error instead of an abort.
+pub(super) fn with_room<T>(count: usize) -> Result<Vec<T>, ParseError> {
+    let mut vector = Vec::new();
+    reserve(&mut vector, count)?;
+    Ok(vector)
+}
+
 /// Room for `additional` more, or an error instead of an abort. A vector that has to grow at all grows by half, so that many small
 /// additions take no more than linear time.
 #[inline]

@@ -65,7 +65,8 @@ fn formats_are_those_that_there_are() {
     }
     for &format in FieldFormat::ALL {
         let listed = formats().iter().find(|listed| listed.name == format.name());
-        let read = read_table(b"1\n2\n", Some(format));
-        assert_eq!(read.is_ok(), listed.is_some_and(|listed| listed.reads && !listed.writes), "{}", format.name());
+        assert!(listed.is_some_and(|listed| listed.reads), "{}", format.name());
+        let is_text = matches!(format, FieldFormat::Txt | FieldFormat::Csv);
+        assert_eq!(read_table(b"1\n2\n", Some(format)).is_ok(), is_text, "{}", format.name());
     }
 }

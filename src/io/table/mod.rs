@@ -9,6 +9,7 @@ mod text;
 use super::names::Names;
 use super::number::parse_number;
 use super::scan::{Scanner, push};
+use super::{freesurfer, gifti, npy, packed};
 use crate::error::{Diagnostic, ParseError};
 use crate::support::named::named;
 use dialect::Dialect;
@@ -23,9 +24,15 @@ pub enum FieldFormat {
     Txt,
     /// Columns with commas, semicolons, tabs or bars between them, with or without a header.
     Csv,
+    /// An array of `NumPy`.
+    Npy,
+    /// Values of GIFTI.
+    Gii,
+    /// Values of `FreeSurfer`, binary.
+    Curv,
 }
 
-named! { FieldFormat any case { Txt = "txt", Csv = "csv" } }
+named! { FieldFormat any case { Txt = "txt", Csv = "csv", Npy = "npy", Gii = "gii", Curv = "curv" } }
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -89,10 +96,14 @@ pub struct Table {
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn read_table(bytes: &[u8], format: Option<FieldFormat>) -> Result<Table, ParseError> {
-    let content = Content::of(bytes, format)?;
+    let bytes = &*packed::unpack(bytes)?;
+    let columns = match binary_columns(bytes, format)? {
+        Some(columns) => columns,
+        None => Text::of(bytes, format)?.read()?,
+    };
     let mut table = Table { columns: Vec::new(), warnings: Vec::new() };
     let mut names = Names::default();
-    for column in content.read()? {
+    for column in columns {
         let given = column.name;
         let mut warn =
             |code, message| table.warnings.push(Diagnostic { code, message, count: 1, examples: Vec::new() });
@@ -130,11 +141,18 @@ pub fn read_table(bytes: &[u8], format: Option<FieldFormat>) -> Result<Table, Pa
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn read_field(bytes: &[u8], options: &FieldReadOptions) -> Result<Vec<f64>, ParseError> {
-    let content = Content::of(bytes, options.format)?;
-    let values = match (content.read_wrapped()?, &options.column) {
-        (Some(values), None | Some(Column::Number(0))) => values,
-        (Some(_), Some(column)) => return Err(unknown(column)),
-        (None, column) => choose(&content, content.read()?, column.as_ref())?,
+    let bytes = &*packed::unpack(bytes)?;
+    let column = options.column.as_ref();
+    let values = match binary_columns(bytes, options.format)? {
+        Some(columns) => choose(None, columns, column)?,
+        None => {
+            let text = Text::of(bytes, options.format)?;
+            match (text.read_wrapped()?, column) {
+                (Some(values), None | Some(Column::Number(0))) => values,
+                (Some(_), Some(column)) => return Err(unknown(column)),
+                (None, column) => choose(Some(&text), text.read()?, column)?,
+            }
+        }
     };
     if values.is_empty() {
         return Err(no_numbers());
@@ -145,8 +163,26 @@ pub fn read_field(bytes: &[u8], options: &FieldReadOptions) -> Result<Vec<f64>, 
     }
 }
 
+/// The columns of a file that is no text; none where it is.
+fn binary_columns(bytes: &[u8], format: Option<FieldFormat>) -> Result<Option<Vec<Raw>>, ParseError> {
+    if bytes.is_empty() {
+        return Err(ParseError::EmptyFile {});
+    }
+    let columns = match format {
+        Some(FieldFormat::Npy) => npy::read(bytes)?,
+        None if bytes.starts_with(npy::MAGIC) => npy::read(bytes)?,
+        Some(FieldFormat::Gii) => gifti::read_columns(bytes)?,
+        None if gifti::is_gifti(bytes) => gifti::read_columns(bytes)?,
+        Some(FieldFormat::Curv) => vec![("value".to_owned(), freesurfer::read_values(bytes)?)],
+        None if bytes.starts_with(freesurfer::VALUES) => vec![("value".to_owned(), freesurfer::read_values(bytes)?)],
+        _ => return Ok(None),
+    };
+    let raw = |(name, values): (String, Vec<f64>)| Raw { name, is_numeric: !values.is_empty(), values, bad: None };
+    Ok(Some(columns.into_iter().map(raw).collect()))
+}
+
 /// The column that is asked for, or the only one.
-fn choose(content: &Content<'_>, columns: Vec<Raw>, column: Option<&Column>) -> Result<Vec<f64>, ParseError> {
+fn choose(text: Option<&Text<'_>>, columns: Vec<Raw>, column: Option<&Column>) -> Result<Vec<f64>, ParseError> {
     let place = match column {
         Some(Column::Number(place)) => Some(*place),
         Some(Column::Name(name)) => columns.iter().position(|column| column.name == name.trim()),
@@ -166,8 +202,9 @@ fn choose(content: &Content<'_>, columns: Vec<Raw>, column: Option<&Column>) -> 
     let place = place.filter(|&place| place < columns.len());
     let chosen = place.and_then(|place| columns.into_iter().nth(place));
     match (chosen, column) {
-        (Some(Raw { bad: Some((row, text)), .. }), _) => {
-            Err(ParseError::InvalidNumber { line: content.line_of(row)?, text })
+        (Some(Raw { bad: Some((row, cell)), .. }), _) => {
+            let line = text.map_or(Ok(row), |text| text.line_of(row))?;
+            Err(ParseError::InvalidNumber { line, text: cell })
         }
         (Some(chosen), _) if chosen.is_numeric => Ok(chosen.values),
         (None, Some(column)) => Err(unknown(column)),
@@ -205,15 +242,15 @@ fn wrong_count(actual: u64, ExpectedRows { vertices, triangles }: ExpectedRows) 
     ParseError::WrongRowCount { expected: vertices, actual, cause }
 }
 
-/// A table's content, and how to read it.
-struct Content<'a> {
+/// A table in text, and how to read it.
+struct Text<'a> {
     bytes: std::borrow::Cow<'a, [u8]>,
     dialect: Dialect,
     /// Bytes of the line that only says what the separator is.
     start: usize,
 }
 
-impl<'a> Content<'a> {
+impl<'a> Text<'a> {
     fn of(bytes: &'a [u8], format: Option<FieldFormat>) -> Result<Self, ParseError> {
         let bytes = text::decode(bytes)?;
         if bytes.trim_ascii().is_empty() {
@@ -228,20 +265,20 @@ impl<'a> Content<'a> {
         Ok(Self { bytes, dialect, start })
     }
 
-    fn text(&self) -> &[u8] {
+    fn content(&self) -> &[u8] {
         &self.bytes[self.start..]
     }
 
     fn read(&self) -> Result<Vec<Raw>, ParseError> {
-        columns::read(self.text(), self.dialect)
+        columns::read(self.content(), self.dialect)
     }
 
     /// The numbers that fill lines, or one line, if that is what there is.
     fn read_wrapped(&self) -> Result<Option<Vec<f64>>, ParseError> {
-        if !columns::is_wrapped(self.text(), self.dialect)? {
+        if !columns::is_wrapped(self.content(), self.dialect)? {
             return Ok(None);
         }
-        let mut text = Scanner::new(self.text()).with_comments();
+        let mut text = Scanner::new(self.content()).with_comments();
         let mut values = Vec::new();
         while let Some(word) = text.word() {
             push(&mut values, parse_number(word).ok_or_else(|| text.invalid_number(word))?)?;
@@ -251,7 +288,7 @@ impl<'a> Content<'a> {
 
     /// The line of a row, by its number from 1.
     fn line_of(&self, row: u64) -> Result<u64, ParseError> {
-        let mut rows = Rows::new(self.text(), self.dialect.separator);
+        let mut rows = Rows::new(self.content(), self.dialect.separator);
         for _ in 0..row {
             rows.advance()?;
         }

@@ -11,7 +11,7 @@ pub(super) const BLANKS: u8 = b' ';
 
 /// Goes through the rows of a table.
 pub(super) enum Rows<'a> {
-    Separated(Records<'a>),
+    Separated(Box<Records<'a>>),
     Blanks { text: Scanner<'a>, words: Vec<&'a [u8]> },
 }
 
@@ -20,7 +20,7 @@ impl<'a> Rows<'a> {
         if separator == BLANKS {
             Self::Blanks { text: Scanner::new(bytes).with_comments(), words: Vec::new() }
         } else {
-            Self::Separated(Records::new(bytes, separator))
+            Self::Separated(Box::new(Records::new(bytes, separator)))
         }
     }
 

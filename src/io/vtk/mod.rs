@@ -96,9 +96,9 @@ impl Reader<'_> {
                     *number = self.data.text.number("a coordinate")?;
                 }
                 if keyword == b"ORIGIN" {
-                    self.origin = numbers
+                    self.origin = numbers;
                 } else {
-                    self.spacing = numbers
+                    self.spacing = numbers;
                 }
                 Ok(())
             }
