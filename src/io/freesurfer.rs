@@ -10,7 +10,7 @@ use crate::error::ParseError;
 
 pub(super) const FORMAT: Format = Format {
     name: "freesurfer",
-    extensions: &["white", "pial", "inflated", "sphere", "orig", "smoothwm", "reg", "surf"],
+    extensions: &["freesurfer", "white", "pial", "inflated", "sphere", "orig", "smoothwm", "reg", "surf"],
     description: "Surfaces of FreeSurfer, binary or text",
     sniff: |bytes| bytes.starts_with(TRIANGLES) || bytes.starts_with(TEXT),
     read,

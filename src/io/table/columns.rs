@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::super::number::is_missing;
-use super::super::scan::{FIRST_ROOM, Scanner, excerpt, push, reserve};
+use super::super::scan::{FIRST_ROOM, Scanner, excerpt, push, reserve, with_room};
 use super::dialect::Dialect;
 use super::raw::Raw;
 use super::rows::{BLANKS, Rows};
@@ -170,7 +170,8 @@ impl Columns {
         let has_header = self.has_header();
         let dialect = self.dialect;
         let has_titles = !has_header && titles.len() == self.all.len();
-        let is_usable: Vec<bool> = self.all.iter().map(|column| column.is_numeric() || column.bad.is_none()).collect();
+        let mut is_usable = with_room(self.all.len())?;
+        is_usable.extend(self.all.iter().map(|column| column.is_numeric() || column.bad.is_none()));
         // Names that are numbers, which columns without a name must not have. Few tables have any.
         let numbers = self.all.iter().filter(|column| has_header && column.first.iter().all(u8::is_ascii_digit));
         let taken: BTreeSet<String> =

@@ -8,7 +8,7 @@ mod text;
 
 use super::names::Names;
 use super::number::parse_number;
-use super::scan::{Scanner, push};
+use super::scan::{Scanner, push, with_room};
 use super::{freesurfer, gifti, npy, packed};
 use crate::error::{Diagnostic, ParseError};
 use crate::support::named::named;
@@ -181,19 +181,26 @@ fn binary_columns(bytes: &[u8], format: Option<FieldFormat>) -> Result<Option<Ve
     Ok(Some(columns.into_iter().map(raw).collect()))
 }
 
+/// Columns that an error names.
+const MOST_NAMES: usize = 100;
+
 /// The column that is asked for, or the only one.
 fn choose(text: Option<&Text<'_>>, columns: Vec<Raw>, column: Option<&Column>) -> Result<Vec<f64>, ParseError> {
     let place = match column {
         Some(Column::Number(place)) => Some(*place),
         Some(Column::Name(name)) => columns.iter().position(|column| column.name == name.trim()),
         None => {
-            let numeric: Vec<usize> = (0..columns.len()).filter(|&place| columns[place].is_numeric).collect();
+            let mut numeric: Vec<usize> = with_room(columns.len())?;
+            numeric.extend((0..columns.len()).filter(|&place| columns[place].is_numeric));
             match *numeric {
                 [place] => Some(place),
                 [] if columns.len() != 1 => return Err(no_numbers()),
                 [] => Some(0),
                 _ => {
-                    let columns = numeric.iter().map(|&place| columns[place].name.clone()).collect();
+                    // Nobody chooses among more.
+                    let listed = numeric.iter().take(MOST_NAMES).map(|&place| columns[place].name.clone());
+                    let more = (numeric.len() > MOST_NAMES).then(|| "…".to_owned());
+                    let columns = listed.chain(more).collect();
                     return Err(ParseError::AmbiguousColumn { columns });
                 }
             }

@@ -10,7 +10,7 @@ use data::Data;
 use reader::{DataSet, Owner, Reader};
 use topology::Layout;
 
-use super::assembly::{Assembly, check_count, check_length};
+use super::assembly::{check_count, check_length};
 use super::cells::{Cells, kind};
 use super::format::{Format, Writer};
 use super::mesh_data::{MeshData, MeshFormat};
