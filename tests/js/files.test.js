@@ -80,7 +80,9 @@ describe('reading', () => {
     // Without a separator only the name tells that each line is a row.
     expect([...readField(text('1\n2\n'), { fileName: 'heat.CSV', column: 0 })]).toEqual([1, 2]);
     expectError(() => readField(text('1 2\n3 4\n'), { fileName: 'heat.csv' }), 'InvalidNumber', { line: 2 });
-    expectError(() => readField(text('1 2\n3 4\n'), { fileName: 'heat.txt' }), 'AmbiguousColumn', { columns: ['0', '1'] });
+    expectError(() => readField(text('1 2\n3 4\n'), { fileName: 'heat.txt' }), 'AmbiguousColumn', {
+      columns: ['0', '1'],
+    });
     expect([...readField(text('1 2\n3\n'), { fileName: 'heat.txt' })]).toEqual([1, 2, 3]);
   });
 
@@ -333,7 +335,10 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n`);
     expectError(() => readField(text('a,b\n1,2\n'), { column: 'c' }), 'UnknownColumn', { column: 'c' });
     expectError(() => readField(text('a,b\n1,2\n'), { column: 7 }), 'UnknownColumn');
     expectError(() => readField(text('1\n'), { format: 'npy' }), 'DamagedData');
-    expectError(() => readField(text('1\n2\n'), { vertices: 3, triangles: 2 }), 'WrongRowCount', { expected: 3, actual: 2 });
+    expectError(() => readField(text('1\n2\n'), { vertices: 3, triangles: 2 }), 'WrongRowCount', {
+      expected: 3,
+      actual: 2,
+    });
     expect([...readField(text('1\n2\n'), { vertices: 2 })]).toEqual([1, 2]);
     expectError(() => readField(text('1\n'), { format: 'xls' }), 'InvalidOption', { option: 'format' });
     expectError(() => readField(text('1\n'), { colunm: 1 }), 'UnknownOption', { option: 'colunm' });
