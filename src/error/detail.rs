@@ -52,9 +52,21 @@ impl From<&'static str> for Detail {
         Self::Text(value.to_owned())
     }
 }
+/// Names, listed in a message with commas between them.
 #[cfg(feature = "files")]
-impl From<Vec<String>> for Detail {
-    fn from(value: Vec<String>) -> Self {
-        Self::Texts(value)
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NameList(pub Vec<String>);
+
+#[cfg(feature = "files")]
+impl core::fmt::Display for NameList {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&self.0.join(", "))
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<NameList> for Detail {
+    fn from(names: NameList) -> Self {
+        Self::Texts(names.0)
     }
 }

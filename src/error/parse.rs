@@ -1,6 +1,6 @@
 //! Reading and writing files.
 
-use super::detail::Detail;
+use super::detail::{Detail, NameList};
 use super::stage::stage_error;
 
 stage_error! {
@@ -82,8 +82,8 @@ stage_error! {
         /// Several columns hold numbers, and none was asked for.
         AmbiguousColumn {
             /// Their names.
-            columns: Vec<String>,
-        } => "several columns hold numbers: {columns:?}; name one with the option `column`",
+            columns: NameList,
+        } => "several columns hold numbers: {columns}; name one with the option `column`",
         /// A field has not one value per vertex.
         WrongRowCount {
             /// Vertices of the mesh.

@@ -46,7 +46,7 @@ impl Components {
     }
 
     /// Hands on the fields.
-    pub(super) fn finish(self, mut take: impl FnMut(&str, Vec<f64>)) -> Result<(), ParseError> {
+    pub(super) fn finish(self, take: &mut dyn FnMut(&str, Vec<f64>)) -> Result<(), ParseError> {
         let Self { name, columns, has_magnitude, .. } = self;
         if columns.len() == 1 {
             columns.into_iter().for_each(|values| take(&name, values));

@@ -2,7 +2,7 @@
 //! volume the outer surface does.
 
 use super::assembly::Assembly;
-use super::scan::{push, with_room};
+use super::scan::{push, sort_ids, with_room};
 use crate::error::ParseError;
 
 /// What a cell's type means.
@@ -236,23 +236,28 @@ impl Cells {
 
     /// Adds the outer surface of the volumes, once all cells and positions are there. Its faces look away from their cells.
     pub(super) fn finish(&mut self, assembly: &mut Assembly) -> Result<(), ParseError> {
-        let mut sides = core::mem::take(&mut self.sides);
-        sides.sort_unstable_by_key(|side| side.key);
+        let sides = core::mem::take(&mut self.sides);
+        let mut order = with_room(sides.len())?;
+        order.extend(0..sides.len() as u32);
+        let side = |place: u32| &sides[place as usize];
+        sort_ids(&mut order, &mut |a, b| side(a).key.cmp(&side(b).key));
+        // Sides that have no twin.
         let mut outer = 0;
-        for place in 0..sides.len() {
-            let has_twin = sides.get(place + 1).is_some_and(|next| next.key == sides[place].key);
-            let is_twin = sides[place].inner == NONE;
-            if has_twin {
-                sides[place + 1].inner = NONE;
-            }
-            if !has_twin && !is_twin {
-                sides.swap(outer, place);
+        let mut start = 0;
+        while start < order.len() {
+            let key = side(order[start]).key;
+            let end = start + order[start..].iter().take_while(|&&place| side(place).key == key).count();
+            if end == start + 1 {
+                order[outer] = order[start];
                 outer += 1;
             }
+            start = end;
         }
-        sides.truncate(outer);
-        sides.sort_unstable_by_key(|side| (side.cell, side.corners));
-        for side in &sides {
+        order.truncate(outer);
+        // In the order of the cells.
+        sort_ids(&mut order, &mut |a, b| a.cmp(&b));
+        for place in order {
+            let side = side(place);
             let count = if side.corners[3] == NONE { 3 } else { 4 };
             let corners = &side.corners[..count];
             let is_reversed = looks_at(&assembly.positions, corners, side.inner);

@@ -200,14 +200,14 @@ fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
     assembly.finish(MeshFormat::Gii)
 }
 
-fn columns_of(array: &DataArray<'_>, length: usize, take: impl FnMut(&str, Vec<f64>)) -> Result<(), ParseError> {
+fn columns_of(array: &DataArray<'_>, length: usize, mut take: impl FnMut(&str, Vec<f64>)) -> Result<(), ParseError> {
     let values = array.numbers(length)?;
     if values.is_empty() {
         return Ok(());
     }
     let mut parts = Components::new(&array.title(), array.columns, array.rows)?;
     values.into_iter().for_each(|value| parts.push(value));
-    parts.finish(take)
+    parts.finish(&mut take)
 }
 
 /// Reads the values of an overlay, every array as a column.

@@ -7,6 +7,11 @@ use std::collections::BTreeMap;
 pub(super) struct Names(BTreeMap<String, u64>);
 
 impl Names {
+    /// Whether a name was there before.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
     /// `name`, or `name_2`, `name_3`, … when it was there before.
     pub(super) fn unique(&mut self, name: &str) -> String {
         let Some(&last) = self.0.get(name) else {

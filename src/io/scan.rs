@@ -2,6 +2,8 @@
 //!
 //! Functions with many callers are kept from being inlined: in WebAssembly the copies only grow the download (measured: by 1 %).
 
+use core::cmp::Ordering;
+
 use super::number::{parse_count, parse_integer, parse_number};
 use crate::error::ParseError;
 use crate::support::memory;
@@ -280,6 +282,12 @@ pub(super) fn filled<T: Clone>(element: T, count: usize) -> Result<Vec<T>, Parse
     let mut vector = with_room(count)?;
     vector.resize(count, element);
     Ok(vector)
+}
+
+/// Sorts ids by what a comparison says of them: one function for all, for a sort is large.
+#[inline(never)]
+pub(super) fn sort_ids(ids: &mut [u32], compare: &mut dyn FnMut(u32, u32) -> Ordering) {
+    ids.sort_unstable_by(|&a, &b| compare(a, b));
 }
 
 /// An empty vector with room for `count` elements, or an error instead of an abort.

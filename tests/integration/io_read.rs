@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use morse_smooth::error::ParseError;
+use morse_smooth::error::{NameList, ParseError};
 use morse_smooth::io::{
     Column, FieldFormat, FieldReadOptions, MeshData, MeshFormat, ReadOptions, read_field, read_mesh,
 };
@@ -521,7 +521,7 @@ fn plain_numbers_are_read() {
 fn csv_columns_are_found_by_name_and_number() {
     let text = "label,\"height, m\" , t\n# note\na,1,10\n\"b \"\"x\"\"\n\",2.5, 20 \n\nc,3,-3e1";
     for text in [text.to_owned(), text.replace('\n', "\r\n"), format!("{text}\n")] {
-        let columns = ["height, m", "t"].map(str::to_owned).to_vec();
+        let columns = NameList(["height, m", "t"].map(str::to_owned).to_vec());
         assert_eq!(column(&text, None), Err(ParseError::AmbiguousColumn { columns }));
         assert_eq!(column(&text, name("height, m")), Ok(vec![1.0, 2.5, 3.0]));
         assert_eq!(column(&text, name("t")), Ok(vec![10.0, 20.0, -30.0]));

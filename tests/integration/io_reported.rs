@@ -1,6 +1,6 @@
 //! Files as people have brought them, which were refused or read wrongly: each with what stands in it.
 
-use morse_smooth::error::{Detail, ParseError};
+use morse_smooth::error::{Detail, NameList, ParseError};
 use morse_smooth::io::{
     Column, ExpectedRows, FieldReadOptions, MeshData, ReadOptions, WriteOptions, read_field, read_mesh, read_table,
     write_mesh,
@@ -84,7 +84,7 @@ fn commas_are_decimal_where_they_cannot_be_separators() {
 #[test]
 fn a_column_is_never_chosen_in_silence() {
     let error = field("id,f\n0,1.5\n1,2.5\n", None).expect_err("two columns");
-    assert_eq!(error, ParseError::AmbiguousColumn { columns: vec!["id".to_owned(), "f".to_owned()] });
+    assert_eq!(error, ParseError::AmbiguousColumn { columns: NameList(vec!["id".to_owned(), "f".to_owned()]) });
     assert_eq!(error.detail(), [("columns", Detail::Texts(vec!["id".to_owned(), "f".to_owned()]))]);
     assert_eq!(field("id,f\n0,1.5\n1,2.5\n", Some("f")), Ok(vec![1.5, 2.5]));
     let values = field("stress,temp\n,20\n1.5,21\n", Some("stress")).expect("a column");

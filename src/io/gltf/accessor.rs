@@ -101,7 +101,7 @@ impl<'a> Scene<'a> {
     pub(super) fn numbers(
         &self,
         accessor: &Accessor,
-        mut visit: impl FnMut(f64) -> Result<(), ParseError>,
+        visit: &mut dyn FnMut(f64) -> Result<(), ParseError>,
     ) -> Result<(), ParseError> {
         for item in 0..accessor.count {
             let start = (accessor.start + item * accessor.stride) as usize;

@@ -161,7 +161,7 @@ impl Builder<'_> {
         }
         reserve(&mut assembly.positions, 3 * positions.count as usize)?;
         let (mut point, mut axis) = ([0.0; 3], 0);
-        scene.numbers(&positions, |value| {
+        scene.numbers(&positions, &mut |value| {
             point[axis] = value;
             axis = (axis + 1) % 3;
             if axis == 0 {
@@ -178,7 +178,7 @@ impl Builder<'_> {
             Some(indices) => {
                 let indices = scene.accessor(indices)?;
                 reserve(&mut corners, indices.count as usize)?;
-                scene.numbers(&indices, |value| {
+                scene.numbers(&indices, &mut |value| {
                     corners.push(value as u32);
                     Ok(())
                 })?;
@@ -224,12 +224,12 @@ fn add_field(
     assembly: &mut Assembly,
 ) -> Result<(), ParseError> {
     let mut parts = Components::new(title, accessor.components, accessor.count)?;
-    scene.numbers(accessor, |value| {
+    scene.numbers(accessor, &mut |value| {
         parts.push(value);
         Ok(())
     })?;
     let mut result = Ok(());
-    parts.finish(|name, values| {
+    parts.finish(&mut |name, values| {
         if result.is_ok() {
             result = assembly.more_of_field(name, first, values);
         }

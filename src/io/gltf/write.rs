@@ -67,7 +67,8 @@ fn document(mesh: &Mesh<'_>) -> Result<Vec<u8>, ParseError> {
     print(
         &mut text,
         format_args!(
-            "}}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\",\"min\":{low:?},\"max\":{high:?}}},"
+            "}}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\",\"min\":[{},{},{}],\"max\":[{},{},{}]}},",
+            low[0], low[1], low[2], high[0], high[1], high[2]
         ),
     );
     print(
@@ -105,12 +106,12 @@ fn document(mesh: &Mesh<'_>) -> Result<Vec<u8>, ParseError> {
 }
 
 /// The bounds of the positions as they are written.
-fn bounds(positions: &[f64]) -> ([f32; 3], [f32; 3]) {
-    let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
+fn bounds(positions: &[f64]) -> ([f64; 3], [f64; 3]) {
+    let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
     for point in positions.chunks_exact(3) {
         for axis in 0..3 {
-            low[axis] = low[axis].min(point[axis] as f32);
-            high[axis] = high[axis].max(point[axis] as f32);
+            low[axis] = low[axis].min(f64::from(point[axis] as f32));
+            high[axis] = high[axis].max(f64::from(point[axis] as f32));
         }
     }
     (low, high)

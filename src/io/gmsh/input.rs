@@ -2,7 +2,7 @@
 
 use super::super::cursor::{Cursor, NumberType};
 use super::super::packed::damaged;
-use super::super::scan::{Scanner, require, reserve};
+use super::super::scan::{Scanner, require, sort_ids, with_room};
 use crate::error::ParseError;
 
 /// Cell types of VTK and numbers of nodes, by the numbers of element types from 1.
@@ -99,10 +99,11 @@ impl Tags {
         if tags.iter().zip(1..).all(|(&tag, place)| tag == place) {
             return Ok(Self::default());
         }
-        let mut sorted = Vec::new();
-        reserve(&mut sorted, tags.len())?;
-        sorted.extend(tags.iter().zip(0..).map(|(&tag, place)| (tag, place)));
-        sorted.sort_unstable();
+        let mut order = with_room(tags.len())?;
+        order.extend(0..tags.len() as u32);
+        sort_ids(&mut order, &mut |a, b| tags[a as usize].cmp(&tags[b as usize]));
+        let mut sorted = with_room(tags.len())?;
+        sorted.extend(order.into_iter().map(|place| (tags[place as usize], place)));
         Ok(Self { sorted })
     }
 

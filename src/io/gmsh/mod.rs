@@ -311,7 +311,7 @@ impl Reader<'_> {
             let mut parts = Components::new(&view.name, view.components, count as u64)?.with_magnitude();
             all.into_iter().for_each(|value| parts.push(value));
             let mut result = Ok(());
-            parts.finish(|name, values| {
+            parts.finish(&mut |name, values| {
                 if view.is_of_nodes {
                     assembly.field(name, values);
                 } else if result.is_ok() {

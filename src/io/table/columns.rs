@@ -1,7 +1,6 @@
 //! The columns of a table in text.
 
-use std::collections::BTreeSet;
-
+use super::super::names::Names;
 use super::super::number::is_missing;
 use super::super::scan::{FIRST_ROOM, Scanner, excerpt, push, reserve, with_room};
 use super::dialect::Dialect;
@@ -173,16 +172,17 @@ impl Columns {
         let mut is_usable = with_room(self.all.len())?;
         is_usable.extend(self.all.iter().map(|column| column.is_numeric() || column.bad.is_none()));
         // Names that are numbers, which columns without a name must not have. Few tables have any.
-        let numbers = self.all.iter().filter(|column| has_header && column.first.iter().all(u8::is_ascii_digit));
-        let taken: BTreeSet<String> =
-            numbers.map(|column| String::from_utf8_lossy(&column.first).into_owned()).collect();
+        let mut taken = Names::default();
+        for column in self.all.iter().filter(|column| has_header && column.first.iter().all(u8::is_ascii_digit)) {
+            taken.unique(&String::from_utf8_lossy(&column.first));
+        }
         let mut table = Vec::new();
         for (place, mut column) in self.all.into_iter().enumerate() {
             let number = dialect.parse(&column.first);
             let own = if has_titles { titles[place].as_slice() } else { column.first.as_slice() };
             let name = match own {
                 name @ [_, ..] if has_header || has_titles => String::from_utf8_lossy(name).into_owned(),
-                _ if has_header && taken.contains(&place.to_string()) => format!("column {place}"),
+                _ if has_header && taken.has(&place.to_string()) => format!("column {place}"),
                 _ => place.to_string(),
             };
             let mut has_numbers = column.has_numbers;

@@ -10,7 +10,7 @@ use super::names::Names;
 use super::number::parse_number;
 use super::scan::{Scanner, push, with_room};
 use super::{freesurfer, gifti, npy, packed};
-use crate::error::{Diagnostic, ParseError};
+use crate::error::{Diagnostic, NameList, ParseError};
 use crate::support::named::named;
 use dialect::Dialect;
 use raw::Raw;
@@ -200,7 +200,7 @@ fn choose(text: Option<&Text<'_>>, columns: Vec<Raw>, column: Option<&Column>) -
                     // Nobody chooses among more.
                     let listed = numeric.iter().take(MOST_NAMES).map(|&place| columns[place].name.clone());
                     let more = (numeric.len() > MOST_NAMES).then(|| "…".to_owned());
-                    let columns = listed.chain(more).collect();
+                    let columns = NameList(listed.chain(more).collect());
                     return Err(ParseError::AmbiguousColumn { columns });
                 }
             }

@@ -132,14 +132,14 @@ impl Reader<'_> {
         if kind.is_real() && scale == 1.0 {
             array = array.with_magnitude();
         }
-        self.data.numbers(&block, |value| array.push(value / scale))?;
+        self.data.numbers(&block, &mut |value| array.push(value / scale))?;
         let Self { owner, assembly, cells, lines, .. } = self;
         if let Owner::Points(_) = owner {
-            return array.finish(|name, values| assembly.field(name, values));
+            return array.finish(&mut |name, values| assembly.field(name, values));
         }
         let mut result = Ok(());
         let lines = *lines as usize;
-        array.finish(|name, mut values| match cells {
+        array.finish(&mut |name, mut values| match cells {
             Some(cells) => {
                 let added = cells.field(assembly, name, &values);
                 result = core::mem::replace(&mut result, Ok(())).and(added);

@@ -154,7 +154,7 @@ impl Reader<'_> {
         let block = self.data.block(kind, count.saturating_mul(3))?;
         let positions = &mut self.assembly.positions;
         reserve(positions, count as usize * 3)?;
-        self.data.numbers(&block, |value| positions.push(value))?;
+        self.data.numbers(&block, &mut |value| positions.push(value))?;
         Ok(())
     }
 
@@ -165,7 +165,7 @@ impl Reader<'_> {
         let values = &mut self.axes[axis];
         values.clear();
         reserve(values, count as usize)?;
-        self.data.numbers(&block, |value| values.push(value))
+        self.data.numbers(&block, &mut |value| values.push(value))
     }
 
     /// Makes the points and cells of a grid, once all of it is known: before the first data, or at the end.
@@ -209,7 +209,7 @@ impl Reader<'_> {
         };
         check_length("CELL_TYPES", connectivity.count(), count)?;
         let mut types = Vec::new();
-        self.data.integers(super::cursor::NumberType::I32, count, |value| push(&mut types, value))?;
+        self.data.integers(super::cursor::NumberType::I32, count, &mut |value| push(&mut types, value))?;
         let has_volumes = types.iter().any(|&number| kind(number).is_volume());
         let mut cells = Cells::new(self.points.unwrap_or(0), has_volumes);
         for (place, &number) in types.iter().enumerate() {

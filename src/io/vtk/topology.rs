@@ -82,7 +82,7 @@ impl Reader<'_> {
         let line = self.data.text.line();
         let mut left = 0;
         let mut found = 0;
-        self.data.integers(NumberType::I32, size, |value| {
+        self.data.integers(NumberType::I32, size, &mut |value| {
             if left > 0 {
                 left -= 1;
                 sink.corner(value)?;
@@ -113,7 +113,7 @@ impl Reader<'_> {
         let id_type = self.data.integer_type()?;
         // One byte or more for each is there, or this fails before the vector grows.
         let mut offsets = Vec::new();
-        self.data.integers(id_type, offset_count, |value| push(&mut offsets, value))?;
+        self.data.integers(id_type, offset_count, &mut |value| push(&mut offsets, value))?;
         if !self.data.text.word().is_some_and(|word| word.eq_ignore_ascii_case(b"CONNECTIVITY")) {
             return Err(self.data.text.syntax("CONNECTIVITY should follow OFFSETS"));
         }
@@ -126,7 +126,7 @@ impl Reader<'_> {
         }
         let mut ends = offsets.iter().skip(1).peekable();
         let mut read = 0;
-        self.data.integers(id_type, corners, |value| {
+        self.data.integers(id_type, corners, &mut |value| {
             // Cells without corners end where they start.
             while ends.next_if(|&&end| end <= read).is_some() {
                 sink.close()?;

@@ -86,7 +86,7 @@ pub(super) struct Storage<'a> {
 
 impl<'a> Storage<'a> {
     /// Hands on the numbers of an array.
-    pub(super) fn numbers(&self, array: &DataArray<'a>, mut visit: impl FnMut(f64)) -> Result<(), ParseError> {
+    pub(super) fn numbers(&self, array: &DataArray<'a>, visit: &mut dyn FnMut(f64)) -> Result<(), ParseError> {
         let Some(kind) = array.kind else { return Ok(()) };
         if let Source::Text(text) = array.source {
             let mut text = Scanner::new(text);
@@ -95,7 +95,7 @@ impl<'a> Storage<'a> {
             }
             return Ok(());
         }
-        self.with_bytes(array, |bytes| {
+        self.with_bytes(array, &mut |bytes| {
             let mut data = Cursor::new(bytes, self.big_endian);
             for _ in 0..bytes.len() as u64 / kind.size() {
                 visit(data.number(kind)?);
@@ -108,7 +108,7 @@ impl<'a> Storage<'a> {
     pub(super) fn ids(
         &self,
         array: &DataArray<'a>,
-        mut visit: impl FnMut(i64) -> Result<(), ParseError>,
+        visit: &mut dyn FnMut(i64) -> Result<(), ParseError>,
     ) -> Result<(), ParseError> {
         let Some(kind) = array.kind else { return Err(damaged("ids are texts or bits")) };
         if let Source::Text(text) = array.source {
@@ -118,7 +118,7 @@ impl<'a> Storage<'a> {
             }
             return Ok(());
         }
-        self.with_bytes(array, |bytes| {
+        self.with_bytes(array, &mut |bytes| {
             let mut data = Cursor::new(bytes, self.big_endian);
             for _ in 0..bytes.len() as u64 / kind.size() {
                 visit(data.integer(kind)?)?;
@@ -131,7 +131,7 @@ impl<'a> Storage<'a> {
     fn with_bytes(
         &self,
         array: &DataArray<'a>,
-        mut visit: impl FnMut(&[u8]) -> Result<(), ParseError>,
+        visit: &mut dyn FnMut(&[u8]) -> Result<(), ParseError>,
     ) -> Result<(), ParseError> {
         let (text, is_base64) = match array.source {
             Source::Nowhere | Source::Text(_) => return Ok(()),
@@ -143,7 +143,7 @@ impl<'a> Storage<'a> {
         };
         let word = if self.has_long_sizes { 8 } else { 4 };
         if !is_base64 {
-            return self.unpack(text, &mut visit);
+            return self.unpack(text, visit);
         }
         // How much of the text belongs to the array stands at its beginning.
         let sizes = |count: usize| base64(text, word * count);
@@ -161,7 +161,7 @@ impl<'a> Storage<'a> {
         };
         let whole = (head * word) as u64;
         require(body, text.len())?;
-        self.unpack(&base64(text, (whole + body) as usize)?, &mut visit)
+        self.unpack(&base64(text, (whole + body) as usize)?, visit)
     }
 
     /// One of the sizes at the beginning of an array's bytes.

@@ -181,7 +181,9 @@ fn read_points(piece: &Piece<'_>, storage: &Storage<'_>, assembly: &mut Assembly
     let positions = &mut assembly.positions;
     let mut result = Ok(());
     if let Some(array) = piece.section("Points").next() {
-        storage.numbers(array, |value| result = core::mem::replace(&mut result, Ok(())).and(push(positions, value)))?;
+        storage.numbers(array, &mut |value| {
+            result = core::mem::replace(&mut result, Ok(())).and(push(positions, value))
+        })?;
     }
     result?;
     let found = positions.len() as u64 - before;
@@ -197,7 +199,7 @@ fn read_cells(piece: &Piece<'_>, section: &str, storage: &Storage<'_>) -> Result
     let (mut corners, mut ends) = (Vec::new(), Vec::new());
     for (name, values) in [("connectivity", &mut corners), ("offsets", &mut ends)] {
         if let Some(array) = piece.array(section, name) {
-            storage.ids(array, |value| push(values, value))?;
+            storage.ids(array, &mut |value| push(values, value))?;
         }
     }
     let mut start = 0;
@@ -255,7 +257,7 @@ fn read_grid(
     corners.iter_mut().for_each(|corner| *corner = moved(*corner, first));
     let mut types = Vec::new();
     if let Some(array) = piece.array("Cells", "types") {
-        storage.ids(array, |value| push(&mut types, value))?;
+        storage.ids(array, &mut |value| push(&mut types, value))?;
     }
     if types.len() != ends.len() {
         return Err(damaged("there are not as many types as cells"));
@@ -280,8 +282,9 @@ fn read_fields(
     for array in piece.section(section).filter(|array| array.is_numeric()) {
         let mut values = Vec::new();
         let mut result = Ok(());
-        storage
-            .numbers(array, |value| result = core::mem::replace(&mut result, Ok(())).and(push(&mut values, value)))?;
+        storage.numbers(array, &mut |value| {
+            result = core::mem::replace(&mut result, Ok(())).and(push(&mut values, value))
+        })?;
         result?;
         if array.components == 1 {
             take(&array.name, values)?;
@@ -296,7 +299,7 @@ fn read_fields(
         }
         values.into_iter().for_each(|value| parts.push(value));
         let mut result = Ok(());
-        parts.finish(|name, values| {
+        parts.finish(&mut |name, values| {
             if result.is_ok() {
                 result = take(name, values);
             }
