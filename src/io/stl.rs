@@ -83,11 +83,10 @@ fn read_binary(bytes: &[u8]) -> Result<MeshData, ParseError> {
     let mut attributes = 0;
     for triangle in body.chunks_exact(TRIANGLE).take(count as usize) {
         for corner in triangle[12..48].chunks_exact(12) {
-            let value = |axis: usize| {
-                let raw = [0, 1, 2, 3].map(|place| corner[4 * axis + place]);
-                f64::from(f32::from_le_bytes(raw))
-            };
-            corners.add([value(0), value(1), value(2)])?;
+            let x = f32::from_le_bytes([corner[0], corner[1], corner[2], corner[3]]);
+            let y = f32::from_le_bytes([corner[4], corner[5], corner[6], corner[7]]);
+            let z = f32::from_le_bytes([corner[8], corner[9], corner[10], corner[11]]);
+            corners.add([f64::from(x), f64::from(y), f64::from(z)])?;
         }
         corners.close()?;
         attributes += u64::from(triangle[48..] != [0, 0]);
@@ -120,7 +119,7 @@ impl Corners {
             self.grow()?;
         }
         // Without the sign of zero.
-        let point = point.map(|value| value + 0.0);
+        let point = [point[0] + 0.0, point[1] + 0.0, point[2] + 0.0];
         let mut place = self.place_of(point);
         let mask = self.table.len() - 1;
         let id = loop {
@@ -135,9 +134,12 @@ impl Corners {
                 }
                 id => {
                     let start = 3 * (id as usize - 1);
-                    let is_same =
-                        |axis: usize| self.assembly.positions[start + axis].to_bits() == point[axis].to_bits();
-                    if (0..3).all(is_same) {
+                    let known = &self.assembly.positions[start..start + 3];
+                    let [x, y, z] = point;
+                    let is_same = known[0].to_bits() == x.to_bits()
+                        && known[1].to_bits() == y.to_bits()
+                        && known[2].to_bits() == z.to_bits();
+                    if is_same {
                         break id - 1;
                     }
                 }
@@ -173,10 +175,11 @@ impl Corners {
     /// three and five.
     fn place_of(&self, point: [f64; 3]) -> usize {
         const MIX: [u64; 3] = [0x9e37_79b9_7f4a_7c15, 0xbb67_ae85_84ca_a73b, 0x3c6e_f372_fe94_f82b];
-        let mut hash = 0_u64;
-        for (value, factor) in point.iter().zip(MIX) {
-            hash = (hash.rotate_left(23) ^ value.to_bits()).wrapping_mul(factor);
-        }
+        // Written out, as is the comparison: the module is compiled for size and does not inline loops of closures.
+        let [x, y, z] = point;
+        let mut hash = x.to_bits().wrapping_mul(MIX[0]);
+        hash = (hash.rotate_left(23) ^ y.to_bits()).wrapping_mul(MIX[1]);
+        hash = (hash.rotate_left(23) ^ z.to_bits()).wrapping_mul(MIX[2]);
         hash ^= hash >> 32;
         hash = hash.wrapping_mul(MIX[0]);
         (hash >> 20) as usize & (self.table.len() - 1)

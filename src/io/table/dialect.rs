@@ -74,6 +74,9 @@ fn of_first_line(bytes: &[u8], between_blanks: Option<bool>) -> u8 {
     found.unwrap_or(if between_blanks.is_none() { BLANKS } else { b',' })
 }
 
+/// Rows without any number after which a way to write tables is given up.
+const NO_NUMBERS: u64 = 1000;
+
 /// What a way to write tables makes of one.
 struct Survey {
     columns: usize,
@@ -116,6 +119,10 @@ impl Survey {
                 }
             }
             row += 1;
+            // No table whatever follows.
+            if survey.is_ragged || (row > NO_NUMBERS && survey.numbers == 0) {
+                break;
+            }
         }
         if row == 1 {
             (survey.cells, survey.numbers) = (survey.columns as u64, header_numbers);
