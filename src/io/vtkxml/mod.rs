@@ -182,7 +182,7 @@ fn read_points(piece: &Piece<'_>, storage: &Storage<'_>, assembly: &mut Assembly
     let mut result = Ok(());
     if let Some(array) = piece.section("Points").next() {
         storage.numbers(array, &mut |value| {
-            result = core::mem::replace(&mut result, Ok(())).and(push(positions, value))
+            result = core::mem::replace(&mut result, Ok(())).and(push(positions, value));
         })?;
     }
     result?;
@@ -283,7 +283,7 @@ fn read_fields(
         let mut values = Vec::new();
         let mut result = Ok(());
         storage.numbers(array, &mut |value| {
-            result = core::mem::replace(&mut result, Ok(())).and(push(&mut values, value))
+            result = core::mem::replace(&mut result, Ok(())).and(push(&mut values, value));
         })?;
         result?;
         if array.components == 1 {
