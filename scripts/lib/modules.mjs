@@ -34,7 +34,7 @@ const TABLE = {
     ...besideTheMain('files'),
     title: 'the WebAssembly module of the files',
     without: ['operators', 'render', 'smooth', 'solve'],
-    limit: 71_000,
+    limit: 150_000,
   },
   snapshot: {
     ...besideTheMain('snapshot'),

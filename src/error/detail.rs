@@ -12,6 +12,9 @@ pub enum Detail {
     Real(f64),
     /// A name or a piece of the input.
     Text(String),
+    /// Names.
+    #[cfg(feature = "files")]
+    Texts(Vec<String>),
 }
 
 impl From<u32> for Detail {
@@ -47,5 +50,23 @@ impl From<String> for Detail {
 impl From<&'static str> for Detail {
     fn from(value: &'static str) -> Self {
         Self::Text(value.to_owned())
+    }
+}
+/// Names, listed in a message with commas between them.
+#[cfg(feature = "files")]
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NameList(pub Vec<String>);
+
+#[cfg(feature = "files")]
+impl core::fmt::Display for NameList {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&self.0.join(", "))
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<NameList> for Detail {
+    fn from(names: NameList) -> Self {
+        Self::Texts(names.0)
     }
 }

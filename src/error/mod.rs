@@ -15,6 +15,8 @@ mod solve;
 mod stage;
 
 pub use detail::Detail;
+#[cfg(feature = "files")]
+pub use detail::NameList;
 pub use diagnostic::Diagnostic;
 pub use field::FieldError;
 pub use interrupt::{Cancelled, OutOfMemory};

@@ -1,6 +1,6 @@
 //! Reading and writing files.
 
-use super::detail::Detail;
+use super::detail::{Detail, NameList};
 use super::stage::stage_error;
 
 stage_error! {
@@ -9,7 +9,12 @@ stage_error! {
         /// There are no bytes.
         EmptyFile {} => "the file is empty",
         /// Neither the option, the content nor the file name tells the format.
-        UnknownFormat {} => "the format could not be recognised from the content or the file name; name it with the option `format`",
+        UnknownFormat {
+            /// What the content seems to be.
+            seems: String,
+            /// The names of all formats.
+            formats: String,
+        } => "this is no format that can be read; it seems to be {seems}. The formats are: {formats}",
         /// The format is known but not built yet.
         UnsupportedFormat {
             /// Its name.
@@ -36,6 +41,11 @@ stage_error! {
             /// What was being read.
             expected: String,
         } => "the file ends at line {line} where {expected} was expected",
+        /// Binary or packed data that cannot be what they should.
+        DamagedData {
+            /// What is wrong.
+            problem: String,
+        } => "{problem}",
         /// Something else stands where a number should.
         InvalidNumber {
             /// 1-based line.
@@ -69,6 +79,20 @@ stage_error! {
             /// Its name or number.
             column: String,
         } => "there is no column `{column}`",
+        /// Several columns hold numbers, and none was asked for.
+        AmbiguousColumn {
+            /// Their names.
+            columns: NameList,
+        } => "several columns hold numbers: {columns}; name one with the option `column`",
+        /// A field has not one value per vertex.
+        WrongRowCount {
+            /// Vertices of the mesh.
+            expected: u64,
+            /// Values that there are.
+            actual: u64,
+            /// What may have happened.
+            cause: String,
+        } => "there are {actual} values for the {expected} vertices of the mesh: {cause}",
         /// More vertices or faces than a 32-bit id can name.
         TooLarge {
             /// Which element.
@@ -94,7 +118,7 @@ stage_error! {
         FieldsNotSupported {
             /// The format's name.
             format: String,
-        } => "`{format}` files cannot hold fields; write PLY or VTK, or no fields",
+        } => "`{format}` files cannot hold fields; write PLY, VTK or VTP, or no fields",
         /// The format has no binary variety that can be written.
         BinaryNotSupported {
             /// The format's name.

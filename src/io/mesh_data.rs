@@ -5,7 +5,7 @@ use core::str::FromStr;
 use crate::error::{Diagnostic, ParseError};
 use crate::support::named::named;
 
-/// A file format for meshes. Its name is also the usual ending of its files.
+/// A file format for meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshFormat {
@@ -13,29 +13,32 @@ pub enum MeshFormat {
     Obj,
     /// Object File Format.
     Off,
-    /// Polygon file format, ASCII or binary.
+    /// Polygon file format.
     Ply,
     /// Stereolithography.
     Stl,
-    /// Legacy VTK `PolyData`.
+    /// VTK legacy data sets.
     Vtk,
-    /// VTK XML `PolyData`.
+    /// VTK XML surfaces.
     Vtp,
-    /// Binary glTF.
+    /// VTK XML unstructured grids.
+    Vtu,
+    /// glTF.
     Glb,
-    /// ESRI ASCII grid.
+    /// GMSH's own.
+    Msh,
+    /// GIFTI.
+    Gii,
+    /// Surfaces of FreeSurfer.
+    FreeSurfer,
+    /// ESRI ASCII grids.
     Asc,
 }
 
 named! { MeshFormat any case {
-    Obj = "obj", Off = "off", Ply = "ply", Stl = "stl", Vtk = "vtk", Vtp = "vtp", Glb = "glb", Asc = "asc",
+    Obj = "obj", Off = "off", Ply = "ply", Stl = "stl", Vtk = "vtk", Vtp = "vtp", Vtu = "vtu",
+    Glb = "glb", Msh = "msh", Gii = "gii", FreeSurfer = "freesurfer", Asc = "asc",
 } }
-
-impl MeshFormat {
-    pub(super) fn unsupported(self) -> ParseError {
-        ParseError::UnsupportedFormat { format: self.name().to_owned() }
-    }
-}
 
 impl FromStr for MeshFormat {
     type Err = ParseError;
@@ -50,10 +53,14 @@ impl FromStr for MeshFormat {
 pub struct MeshData {
     /// x, y, z of every vertex, one after the other.
     pub positions: Vec<f64>,
-    /// Three vertex ids for every triangle; polygons are triangulated as a fan of their first corner.
+    /// Three vertex ids for every triangle; polygons are cut into triangles.
     pub triangles: Vec<u32>,
     /// Scalar fields by name, in the order of the file, one value per vertex.
     pub fields: Vec<(String, Vec<f64>)>,
+    /// Scalar fields by name with one value per triangle; where a face became several triangles each has its value.
+    pub triangle_fields: Vec<(String, Vec<f64>)>,
+    /// For every vertex its number in the file; none where they are the same.
+    pub vertex_map: Option<Vec<u32>>,
     /// The format read.
     pub format: MeshFormat,
     /// What was skipped or put right.

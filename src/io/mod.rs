@@ -4,27 +4,46 @@
 //! the bytes that are there before memory is set aside. `nan` and `inf` are read as they are, and a number beyond double
 //! precision is infinite: the mesh and its fields refuse them with their vertex, so that a field with gaps does not keep the rest of the file from loading.
 
+mod arrays;
 mod assembly;
-mod columns;
+mod average;
+mod cells;
 mod cursor;
+mod esri;
+mod format;
 mod formats;
+mod freesurfer;
+mod gifti;
+mod gltf;
+mod gmsh;
+mod json;
 mod mesh_data;
+mod names;
+mod npy;
+mod number;
 mod obj;
 mod off;
+mod packed;
 mod ply;
+mod polygon;
+mod recognise;
 mod scan;
+mod stl;
 mod table;
 mod vtk;
+mod vtkxml;
 mod write;
+mod writing;
+mod xml;
 
-pub use columns::{Table, read_table};
-pub use formats::{FormatInfo, formats};
+pub use average::average_on_vertices;
+pub use format::FormatInfo;
+pub use formats::formats;
 pub use mesh_data::{MeshData, MeshFormat};
-pub use table::{Column, FieldFormat, FieldReadOptions, read_field};
+pub use table::{Column, ExpectedRows, FieldFormat, FieldReadOptions, Table, read_field, read_table};
 pub use write::{WriteOptions, write_mesh};
 
 use crate::error::ParseError;
-use scan::Scanner;
 
 /// How to read a mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -35,7 +54,7 @@ pub struct ReadOptions {
     pub file_name: Option<String>,
 }
 
-/// Reads a mesh file: OBJ, OFF, PLY or legacy VTK `PolyData`.
+/// Reads a mesh file of any of the [`formats`].
 ///
 /// Vertices keep their order, also those that no face names. Fields are the scalar vertex properties of PLY files and the
 /// point data of VTK files; an array `v` of several components makes the fields `v_0`, `v_1`, … A name that stands twice
@@ -57,63 +76,12 @@ pub struct ReadOptions {
 /// # Ok::<(), morse_smooth::Error>(())
 /// ```
 pub fn read_mesh(bytes: &[u8], options: &ReadOptions) -> Result<MeshData, ParseError> {
+    let bytes = &*packed::unpack(bytes)?;
     if scan::without_byte_order_mark(bytes).trim_ascii().is_empty() {
         return Err(ParseError::EmptyFile {});
     }
-    let format = options
-        .format
-        .or_else(|| sniff(bytes))
-        .or_else(|| from_file_name(options.file_name.as_deref()?))
-        .ok_or(ParseError::UnknownFormat {})?;
-    match format {
-        MeshFormat::Obj => obj::read(bytes),
-        MeshFormat::Off => off::read(bytes),
-        MeshFormat::Ply => ply::read(bytes),
-        MeshFormat::Vtk => vtk::read(bytes),
-        MeshFormat::Stl | MeshFormat::Vtp | MeshFormat::Glb | MeshFormat::Asc => Err(format.unsupported()),
-    }
-}
-
-/// The format that the content shows.
-fn sniff(bytes: &[u8]) -> Option<MeshFormat> {
-    if bytes.starts_with(b"glTF") {
-        return Some(MeshFormat::Glb);
-    }
-    let mut text = Scanner::new(bytes);
-    text.next_row();
-    let start = text.rest();
-    let first = text.word_in_row()?;
-    if first == b"ply" {
-        return Some(MeshFormat::Ply);
-    }
-    if start.get(..vtk::MAGIC.len()).is_some_and(|start| start.eq_ignore_ascii_case(vtk::MAGIC)) {
-        return Some(MeshFormat::Vtk);
-    }
-    if first.starts_with(b"<?xml") || first.starts_with(b"<VTKFile") {
-        let head = &start[..start.len().min(1024)];
-        return head.windows(8).any(|window| window == b"<VTKFile").then_some(MeshFormat::Vtp);
-    }
-    if first.eq_ignore_ascii_case(b"ncols") {
-        return Some(MeshFormat::Asc);
-    }
-    if is_binary_stl(bytes) || first == b"solid" {
-        return Some(MeshFormat::Stl);
-    }
-    // These two may start with comments.
-    let mut text = Scanner::new(bytes).with_comments();
-    let first = text.word()?;
-    if off::keyword(first).is_some() {
-        return Some(MeshFormat::Off);
-    }
-    obj::KEYWORDS.contains(&first).then_some(MeshFormat::Obj)
-}
-
-/// A header of 80 bytes, the number of triangles, and 50 bytes for each: nothing else marks these files.
-fn is_binary_stl(bytes: &[u8]) -> bool {
-    let count = bytes.get(80..).and_then(|rest| rest.first_chunk()).map(|&raw| u64::from(u32::from_le_bytes(raw)));
-    count.is_some_and(|count| count > 0 && bytes.len() as u64 == 84 + 50 * count)
-}
-
-fn from_file_name(name: &str) -> Option<MeshFormat> {
-    MeshFormat::from_name(name.rsplit_once('.')?.1)
+    let by_name = || formats::of_file_name(options.file_name.as_deref()?);
+    let format = options.format.or_else(|| formats::sniff(bytes)).or_else(by_name);
+    let format = format.ok_or_else(|| recognise::unknown_format(bytes))?;
+    (format.format().read)(bytes)
 }

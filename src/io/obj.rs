@@ -1,19 +1,36 @@
 //! Wavefront OBJ: `v` and `f` rows; ids count from 1, negative ones back from the last vertex. Text only.
 
 use super::assembly::{Assembly, check_count};
+use super::format::{Format, Writer};
 use super::mesh_data::{MeshData, MeshFormat};
-use super::scan::{Scanner, excerpt, parse_integer, parse_number, push};
+use super::number::{parse_integer, parse_number};
+use super::scan::{Scanner, excerpt, push, room};
+use super::writing::{LONGEST_FACE, Mesh, print, push_row};
 use crate::error::ParseError;
 
+pub(super) const FORMAT: Format = Format {
+    name: "obj",
+    extensions: &["obj"],
+    description: "Wavefront OBJ, text",
+    sniff,
+    read,
+    write: Some(Writer { text: true, binary: false, fields: false, write }),
+};
+
 /// Keywords that a file of this format starts with.
-pub(super) const KEYWORDS: [&[u8]; 14] =
+const KEYWORDS: [&[u8]; 14] =
     [b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl", b"usemap"];
 
 /// Rows that a mesh does not need, and that are passed over without a word: names, materials, attributes of corners.
 const SILENT: [&[u8]; 9] = [b"vt", b"vn", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl", b"usemap"];
 
+/// Comments may come first.
+fn sniff(bytes: &[u8]) -> bool {
+    Scanner::new(bytes).with_comments().word().is_some_and(|first| KEYWORDS.contains(&first))
+}
+
 /// Reads an OBJ file: vertex ids follow the order of the `v` rows, also of vertices that no face names.
-pub(super) fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
+fn read(bytes: &[u8]) -> Result<MeshData, ParseError> {
     let mut text = Scanner::new(bytes).with_comments().with_continuations();
     let mut assembly = Assembly::default();
     let mut largest = Largest { index: 0, face: 0 };
@@ -93,4 +110,18 @@ fn read_face(text: &mut Scanner<'_>, assembly: &mut Assembly, largest: &mut Larg
         assembly.corner(corner, u64::from(u32::MAX))?;
     }
     assembly.close_polygon()
+}
+
+fn write(out: &mut Vec<u8>, mesh: &Mesh<'_>, _binary: bool) -> Result<(), ParseError> {
+    for point in mesh.positions.chunks_exact(3) {
+        room(out, 2)?;
+        out.extend_from_slice(b"v ");
+        push_row(out, point)?;
+    }
+    for corners in mesh.triangles.chunks_exact(3) {
+        room(out, LONGEST_FACE)?;
+        let [a, b, c] = [corners[0], corners[1], corners[2]].map(|corner| u64::from(corner) + 1);
+        print(out, format_args!("f {a} {b} {c}\n"));
+    }
+    Ok(())
 }

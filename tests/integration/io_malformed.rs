@@ -42,7 +42,7 @@ fn a_table_of_errors() {
         (ply, "vertex 3", "vertex -3", "InvalidNumber"),
         (ply, "vertex 3", "vertex 1e9", "InvalidNumber"),
         (ply, "vertex 3", "vertex 4", "InvalidSyntax"),
-        (ply, "vertex 3", "vertex 0", "InvalidSyntax"),
+        (ply, "vertex 3", "vertex 0", "MissingElement"),
         (ply, "vertex 3", "vertex 4000000000", "Truncated"),
         (ply, "vertex 3", "vertex 40000000000", "TooLarge"),
         (ply, "vertex 3", "vertex 99999999999999999999", "InvalidNumber"),
@@ -308,7 +308,7 @@ fn read_every_way(bytes: &[u8]) {
     }
     for format in [None, Some(FieldFormat::Txt), Some(FieldFormat::Csv)] {
         for column in [None, Some(Column::Number(1)), Some(Column::Name("a".to_owned()))] {
-            let _ = read_field(bytes, &FieldReadOptions { format, column });
+            let _ = read_field(bytes, &FieldReadOptions { format, column, ..FieldReadOptions::default() });
         }
         if let Ok(table) = read_table(bytes, format) {
             let rows = table.columns[0].1.len();

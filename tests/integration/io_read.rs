@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use morse_smooth::error::ParseError;
+use morse_smooth::error::{NameList, ParseError};
 use morse_smooth::io::{
     Column, FieldFormat, FieldReadOptions, MeshData, MeshFormat, ReadOptions, read_field, read_mesh,
 };
@@ -215,8 +215,10 @@ fn ply_binary_reads_every_type_in_both_byte_orders() {
         ];
         assert_eq!(fields(&data), expected.each_ref().map(|(name, values)| (*name, values.as_slice())));
         assert_eq!(data.warnings.iter().filter(|warning| warning.code == "SkippedFace").count(), 1);
-        // extra, tags, empty, red, texcoord, edge.
-        assert_eq!(data.warnings.iter().filter(|warning| warning.code == "SkippedData").count(), 6);
+        // extra, tags, empty, texcoord, edge.
+        assert_eq!(data.warnings.iter().filter(|warning| warning.code == "SkippedData").count(), 5);
+        // Of the three faces one has a single corner.
+        assert_eq!(data.triangle_fields, [("red".to_owned(), vec![9.0, 9.0])]);
     }
 }
 
@@ -260,12 +262,27 @@ fn ply_rows_that_do_not_fit_the_header_are_refused() {
     };
     assert_eq!(line("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), 11);
     assert_eq!(line("0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n"), 11);
-    assert_eq!(line("0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n"), 13);
     assert_eq!(line("0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), 13);
     assert_eq!(line("0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), 13);
-    let strips =
-        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    assert_eq!(fail(format!("{head}{strips}")).code(), "UnsupportedFeature");
+}
+
+#[test]
+fn ply_faces_may_have_numbers_that_the_header_does_not_declare() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 2\nproperty list uchar int vertex_indices\nend_header\n\
+        0 0 0\n1 0 0\n1 1 .5\n0 1 -.1\n3 0 1 2 255 0 0 255\n3 0 2 3 0 255 0 255\n";
+    let data = read(text);
+    assert_square(&data, MeshFormat::Ply);
+    assert_eq!(codes(&data), [("SkippedData", 2)]);
+}
+
+#[test]
+fn ply_strips_are_cut_into_triangles() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+        element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+        0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n9 0 1 2 3 -1 2 3 4 -1\n";
+    assert_eq!(read(text).triangles, [0, 1, 2, 2, 1, 3, 2, 3, 4]);
+    assert_eq!(read(text.replace("9 0", "8 0").replace("4 -1", "4")).triangles, [0, 1, 2, 2, 1, 3, 2, 3, 4]);
 }
 
 // ------------------------------------------------------------------ VTK
@@ -289,14 +306,20 @@ fn vtk(encoding: &str) -> Blocks {
     Blocks(Vec::new()).text(&format!("# vtk DataFile Version 4.2\n\n{encoding}\nDATASET POLYDATA\n"))
 }
 
-fn point_fields() -> [(&'static str, &'static [f64]); 9] {
+/// With the color that every point has.
+fn point_fields(color: &[f64; 4]) -> [(&'static str, &[f64]); 13] {
     [
         ("a b", &[0.1, 1.0, 2.0, 3.0]),
         ("pair_0", &[1.0, 3.0, 5.0, 7.0]),
         ("pair_1", &[2.0, 4.0, 6.0, 8.0]),
+        ("rgb_0", color),
+        ("rgb_1", color),
+        ("rgb_2", color),
         ("v_0", &[1.0, 0.0, 0.0, 1.0]),
         ("v_1", &[0.0, 1.0, 0.0, 1.0]),
         ("v_2", &[0.0, 0.0, 1.0, 1.0]),
+        // The square root of three, as IEEE 754 rounds it.
+        ("v_magnitude", &[1.0, 1.0, 1.0, 1.732_050_807_568_877_2]),
         ("one", &[9.0, 8.0, 7.0, 6.0]),
         ("two_0", &[1.0, 2.0, 3.0, 4.0]),
         ("two_1", &[-1.0, -2.0, -3.0, -4.0]),
@@ -316,9 +339,9 @@ fn vtk_text_is_read_with_everything_around_it() {
     for text in [text.to_owned(), text.replace('\n', "\r\n"), text.replace('\n', "\r"), text.trim_end().to_owned()] {
         let data = read(&text);
         assert_square(&data, MeshFormat::Vtk);
-        assert_eq!(fields(&data), point_fields());
-        // TIME, names, vertex cell, line, c, table, colours, ids.
-        assert_eq!(data.warnings.len(), 8, "{:?}", data.warnings);
+        assert_eq!(fields(&data), point_fields(&[0.0; 4]));
+        // TIME, names, vertex cell, line, c (which has too few values), table, ids.
+        assert_eq!(data.warnings.len(), 7, "{:?}", data.warnings);
     }
 }
 
@@ -349,7 +372,7 @@ fn vtk_binary_is_read_with_everything_around_it() {
         .numbers([1_i16, -1, 2, -2, 3, -3, 4, -4].map(i16::to_be_bytes));
     let data = read(&bytes.0);
     assert_square(&data, MeshFormat::Vtk);
-    assert_eq!(fields(&data), point_fields());
+    assert_eq!(fields(&data), point_fields(&[10.0 / 255.0; 4]));
 }
 
 #[test]
@@ -406,16 +429,18 @@ fn vtk_strips_keep_their_orientation() {
 
 #[test]
 fn vtk_varieties_and_lengths_that_do_not_fit_are_named() {
-    let other = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 0\n";
+    let other = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET HYPERGRID\nPOINTS 1 float\n0 0 0\n";
     assert_eq!(
         fail(other),
-        ParseError::UnsupportedFeature { format: "vtk".to_owned(), feature: "DATASET UNSTRUCTURED_GRID".to_owned() }
+        ParseError::UnsupportedFeature { format: "vtk".to_owned(), feature: "DATASET HYPERGRID".to_owned() }
     );
     let mesh = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
     let wrong = fail(format!("{mesh}POINT_DATA 4\nSCALARS s float\n1 2 3 4\n"));
     assert_eq!(wrong, ParseError::LengthMismatch { field: "POINT_DATA".to_owned(), expected: 3, actual: 4 });
-    let wrong = fail(format!("{mesh}POINT_DATA 3\nFIELD f 1\ns 1 2 float\n1 2\n"));
-    assert_eq!(wrong, ParseError::LengthMismatch { field: "s".to_owned(), expected: 3, actual: 2 });
+    // One array too short does not keep the others from being read.
+    let data = read(format!("{mesh}POINT_DATA 3\nFIELD f 2\ns 1 2 float\n1 2\nt 1 3 float\n4 5 6\n"));
+    assert_eq!(fields(&data), [("t", &[4.0, 5.0, 6.0][..])]);
+    assert_eq!(codes(&data), [("SkippedData", 2)]);
     assert_eq!(fail(format!("{mesh}POINT_DATA 3\nSCALARS s float\n1 2\n")).code(), "UnexpectedEnd");
     assert_eq!(fail(format!("{mesh}POINT_DATA 3\nSCALARS s float\n1 2 x\n")).code(), "InvalidNumber");
     assert_eq!(fail(format!("{mesh}POINT_DATA 3\nSCALARS s float\n1 2 3 4\n")).code(), "InvalidSyntax");
@@ -427,39 +452,46 @@ fn vtk_varieties_and_lengths_that_do_not_fit_are_named() {
 // ------------------------------------------------------------------ formats
 
 #[test]
-fn formats_are_recognised_and_the_ones_not_built_are_named() {
-    let mut stl = vec![b'x'; 80];
-    stl.extend(1_u32.to_le_bytes());
-    stl.extend([0; 50]);
-    let vtp = b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">".to_vec();
-    let cases = [
-        (stl, "stl"),
-        (b"solid cube\nfacet normal 0 0 1\n".to_vec(), "stl"),
-        (vtp, "vtp"),
-        (b"glTF\x02\0\0\0".to_vec(), "glb"),
-        (b"ncols 4\nnrows 5\n".to_vec(), "asc"),
+fn what_is_no_mesh_is_told_with_the_formats_that_there_are() {
+    let cases: [(&[u8], &str); 9] = [
+        (b"hello world", "text"),
+        (b"<?xml version=\"1.0\"?>\n<svg/>", "an SVG picture"),
+        (b"\xff\xd8\xff\xe0\0\x10JFIF", "a JPEG picture"),
+        (b"\x89PNG\r\n", "a PNG picture"),
+        (b"BZh9", "compressed by bzip2"),
+        (b"<!DOCTYPE html><html>404", "a page of the web, perhaps an error message of a server"),
+        (b"0.5 1\n0.25 2\n", "a table of numbers, which is a field and no mesh"),
+        (b"\0\x01\x02", "binary data of a kind that is not known here"),
+        (b"{\"a\": 1}", "JSON"),
     ];
-    for (bytes, format) in cases {
-        assert_eq!(fail(bytes), ParseError::UnsupportedFormat { format: format.to_owned() });
+    for (bytes, what) in cases {
+        match fail(bytes) {
+            ParseError::UnknownFormat { seems, formats } => {
+                assert_eq!(seems, what);
+                let names: Vec<&str> = morse_smooth::io::formats().iter().map(|format| format.name).collect();
+                assert_eq!(formats, names.join(", "));
+            }
+            other => panic!("{other}"),
+        }
     }
-    assert_eq!(fail("hello world"), ParseError::UnknownFormat {});
-    assert_eq!(fail("<?xml version=\"1.0\"?>\n<svg/>"), ParseError::UnknownFormat {});
-    let named = ReadOptions { format: None, file_name: Some("scan.stl".to_owned()) };
-    assert_eq!(read_mesh(b"hello", &named), Err(ParseError::UnsupportedFormat { format: "stl".to_owned() }));
-    // The content counts more than the name.
+}
+
+#[test]
+fn the_content_counts_more_than_the_name() {
+    let named = ReadOptions { format: None, file_name: Some("scan.ply".to_owned()) };
+    assert_eq!(read_mesh(b"hello", &named).map_err(|error| error.code()), Err("InvalidSyntax"));
     assert!(read_mesh(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", &named).is_ok());
-    for format in ["obj", "off", "ply", "stl", "vtk", "vtp", "glb", "asc"] {
-        let found: MeshFormat = format.to_uppercase().parse().expect("a format");
-        assert_eq!(found.name(), format);
+    for &format in MeshFormat::ALL {
+        assert_eq!(format.name().to_uppercase().parse(), Ok(format));
     }
-    assert_eq!("gltf".parse::<MeshFormat>().map_err(|error| error.code()), Err("UnsupportedFormat"));
+    assert_eq!("doc".parse::<MeshFormat>().map_err(|error| error.code()), Err("UnsupportedFormat"));
     assert_eq!(FieldFormat::from_name("CSV").map(FieldFormat::name), Some("csv"));
 }
 
 // ------------------------------------------------------------------ fields
 
 fn column(text: &str, column: Option<Column>) -> Result<Vec<f64>, ParseError> {
-    read_field(text.as_bytes(), &FieldReadOptions { format: None, column })
+    read_field(text.as_bytes(), &FieldReadOptions { column, ..FieldReadOptions::default() })
 }
 
 fn name(name: &str) -> Option<Column> {
@@ -479,7 +511,7 @@ fn plain_numbers_are_read() {
     }
     let values = column("1\nNaN\n-inf\n", None).expect("what is not finite is refused later");
     assert!(values[1].is_nan() && values[2] == f64::NEG_INFINITY);
-    let options = FieldReadOptions { format: Some(FieldFormat::Txt), column: None };
+    let options = FieldReadOptions { format: Some(FieldFormat::Txt), ..FieldReadOptions::default() };
     assert_eq!(read_field(b"1\n2\nx\n", &options), Err(ParseError::InvalidNumber { line: 3, text: "x".to_owned() }));
     assert_eq!(column("1\n2\n3\n", Some(Column::Number(0))), Ok(vec![1.0, 2.0, 3.0]));
     assert_eq!(column("1\n2\n3\n", Some(Column::Number(1))).map_err(|error| error.code()), Err("UnknownColumn"));
@@ -489,7 +521,8 @@ fn plain_numbers_are_read() {
 fn csv_columns_are_found_by_name_and_number() {
     let text = "label,\"height, m\" , t\n# note\na,1,10\n\"b \"\"x\"\"\n\",2.5, 20 \n\nc,3,-3e1";
     for text in [text.to_owned(), text.replace('\n', "\r\n"), format!("{text}\n")] {
-        assert_eq!(column(&text, None), Ok(vec![1.0, 2.5, 3.0]));
+        let columns = NameList(["height, m", "t"].map(str::to_owned).to_vec());
+        assert_eq!(column(&text, None), Err(ParseError::AmbiguousColumn { columns }));
         assert_eq!(column(&text, name("height, m")), Ok(vec![1.0, 2.5, 3.0]));
         assert_eq!(column(&text, name("t")), Ok(vec![10.0, 20.0, -30.0]));
         assert_eq!(column(&text, Some(Column::Number(2))), Ok(vec![10.0, 20.0, -30.0]));
@@ -497,7 +530,8 @@ fn csv_columns_are_found_by_name_and_number() {
         assert_eq!(column(&text, Some(Column::Number(3))), Err(ParseError::UnknownColumn { column: "3".to_owned() }));
         assert_eq!(column(&text, Some(Column::Number(0))).map_err(|error| error.code()), Err("InvalidNumber"));
     }
-    assert_eq!(column("1,2\n3,4\n", None), Ok(vec![1.0, 3.0]));
+    assert_eq!(column("1,2\n3,4\n", None).map_err(|error| error.code()), Err("AmbiguousColumn"));
+    assert_eq!(column("a,2\nb,4\n", None), Ok(vec![2.0, 4.0]));
     assert_eq!(column("1,2\n3,4\n", Some(Column::Number(1))), Ok(vec![2.0, 4.0]));
     assert_eq!(column("x\ty\n1\t2\n3\t4\n", name("y")), Ok(vec![2.0, 4.0]));
     assert_eq!(column("value\n1\n2\n", None), Ok(vec![1.0, 2.0]));
@@ -506,17 +540,20 @@ fn csv_columns_are_found_by_name_and_number() {
 
 #[test]
 fn csv_of_spreadsheets_with_decimal_commas_is_read() {
-    assert_eq!(column("a;b\n1,5;2\n-3,25;4\n", None), Ok(vec![1.5, -3.25]));
+    assert_eq!(column("a;b\n1,5;2\n-3,25;4\n", name("a")), Ok(vec![1.5, -3.25]));
     assert_eq!(column("1,234.5;2\n", None), Ok(vec![2.0]), "a number with comma and point is no number");
-    assert_eq!(column("a;b\n1,5;2\n1,2,3;4\n", None).map_err(|error| error.code()), Err("InvalidNumber"));
+    assert_eq!(column("a;b\n1,5;2\n1,2,3;4\n", name("a")).map_err(|error| error.code()), Err("InvalidNumber"));
 }
 
 #[test]
-fn csv_gaps_and_short_records_are_errors_with_their_line() {
-    assert_eq!(column("a,b\n1,2\n3,\n", name("b")), Err(ParseError::InvalidNumber { line: 3, text: String::new() }));
+fn csv_gaps_are_missing_values_and_short_records_errors_with_their_line() {
+    let gap = column("a,b\n1,2\n3,\n", name("b")).expect("a missing value");
+    assert!(gap[0] == 2.0 && gap[1].is_nan());
+    let gap = column("a,b\r\n1,2\r\n\r\nNA,3\r\n", name("a")).expect("a missing value");
+    assert!(gap[0] == 1.0 && gap[1].is_nan());
     assert_eq!(
-        column("a,b\r\n1,2\r\n\r\nNA,3\r\n", None),
-        Err(ParseError::InvalidNumber { line: 4, text: "NA".to_owned() })
+        column("a,b\r\n1,2\r\n\r\nmuch,3\r\n", name("a")),
+        Err(ParseError::InvalidNumber { line: 4, text: "much".to_owned() })
     );
     match column("a,b\n1,2\n3\n4,5\n", name("b")) {
         Err(ParseError::InvalidSyntax { line: 3, .. }) => {}
@@ -524,8 +561,6 @@ fn csv_gaps_and_short_records_are_errors_with_their_line() {
     }
     assert_eq!(column("a,b\n", None).map_err(|error| error.code()), Err("MissingElement"));
     assert_eq!(column(" \n", None), Err(ParseError::EmptyFile {}));
-    let npy = FieldReadOptions::default();
-    assert_eq!(read_field(b"\x93NUMPY\x01\0", &npy), Err(ParseError::UnsupportedFormat { format: "npy".to_owned() }));
 }
 
 // ------------------------------------------------------------------ data sets

@@ -60,12 +60,13 @@ fn formats_are_those_that_there_are() {
         let endings = listed.iter().flat_map(|listed| listed.extensions);
         for ending in endings {
             let options = ReadOptions { format: None, file_name: Some(format!("a.{}", ending.to_uppercase())) };
-            assert_ne!(read_mesh(b"1", &options).expect_err("no mesh"), ParseError::UnknownFormat {});
+            assert_ne!(read_mesh(b"1", &options).expect_err("no mesh").code(), "UnknownFormat");
         }
     }
     for &format in FieldFormat::ALL {
         let listed = formats().iter().find(|listed| listed.name == format.name());
-        let read = read_table(b"1\n2\n", Some(format));
-        assert_eq!(read.is_ok(), listed.is_some_and(|listed| listed.reads && !listed.writes), "{}", format.name());
+        assert!(listed.is_some_and(|listed| listed.reads), "{}", format.name());
+        let is_text = matches!(format, FieldFormat::Txt | FieldFormat::Csv);
+        assert_eq!(read_table(b"1\n2\n", Some(format)).is_ok(), is_text, "{}", format.name());
     }
 }

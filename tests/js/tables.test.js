@@ -87,7 +87,7 @@ describe('what is no table is refused', () => {
     ['no numbers', 'a,b\nc,d\n', undefined, 'MissingElement', {}],
     ['a header alone', 'a,b\n', undefined, 'MissingElement', {}],
     ['a comment alone', '# 1 2 3\n', undefined, 'MissingElement', {}],
-    ['what NumPy writes', '\x93NUMPY', { format: 'npy' }, 'UnsupportedFormat', { format: 'npy' }],
+    ['what NumPy does not write', '\x93NUMPY', { format: 'npy' }, 'DamagedData', {}],
     ['an unknown format', '1,2', { format: 'xls' }, 'InvalidOption', { option: 'format' }],
     ['an unknown option', '1,2', { column: 1 }, 'UnknownOption', { option: 'column' }],
   ])('%s', (_, content, options, code, detail) => {

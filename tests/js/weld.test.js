@@ -110,7 +110,8 @@ end_header
 `);
     const { vertexMap, positions, triangles, fields, warnings } = readMesh(file, { weld: { tolerance: 1e-6 } });
     expect([...fields.heat]).toEqual([1, 2, 4]);
-    expect([...vertexMap]).toEqual([0, 1, 2, 2]);
+    // The first one of those that became it.
+    expect([...vertexMap]).toEqual([0, 1, 2]);
     const mesh = new TriMesh(positions, triangles);
     expect([mesh.vertexCount, mesh.vertexMap()]).toEqual([3, null]);
     mesh.free();

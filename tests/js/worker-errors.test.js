@@ -62,7 +62,10 @@ const set = (field, vertex, value) => field.with(vertex, value);
 const failing = {
   EmptyFile: (api) => api.readMesh(new Uint8Array()),
   UnknownFormat: (api) => api.readMesh(text('?')),
-  UnsupportedFormat: (api) => api.readMesh(text('solid x'), { format: 'stl' }),
+  UnsupportedFormat: (api) => api.writeMesh(octahedron(), { format: 'vtu' }),
+  DamagedData: (api) => api.readTable(text('1'), { format: 'npy' }),
+  AmbiguousColumn: (api) => api.readField(text('a,b\n1,2\n')),
+  WrongRowCount: (api) => api.readField(text('1\n2\n'), { vertices: 3 }),
   Truncated: (api) => api.readMesh(text('OFF\n3 1 0\n0 0 0\n')),
   InvalidNumber: (api) => api.readField(text('1\ntwo\n3\n')),
   UnknownColumn: (api) => api.readField(text('a,b\n1,2\n'), { column: 'c' }),

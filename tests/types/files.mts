@@ -25,7 +25,8 @@ for (const { name, extensions, reads, writes, description } of formats()) {
 // ------------------------------------------------------------------------------------------------------------- meshes
 const file = readMesh(new Uint8Array(3), { format: 'ply', fileName: 'x.ply', weld: true });
 same<typeof file, api.MeshFile>(true);
-same<api.MeshFile['format'], 'obj' | 'off' | 'ply' | 'vtk'>(true);
+same<api.MeshFile['format'], api.MeshFormat>(true);
+same<api.MeshFile['triangleFields'], api.MeshFile['fields']>(true);
 same<[typeof file.positions, typeof file.triangles], [Float64Array<ArrayBuffer>, Uint32Array<ArrayBuffer>]>(true);
 same<typeof file.vertexMap, Uint32Array<ArrayBuffer> | null>(true);
 same<api.Diagnostic, Diagnostic>(true);
@@ -37,8 +38,9 @@ smooth(new TriMesh(file.positions, file.triangles), fields.heat!, { epsilon: 1 }
 readMesh(new Uint8Array(3), { weld: { tolerance: 1e-6 } });
 // @ts-expect-error text is not bytes
 readMesh('OFF');
-// @ts-expect-error not built yet
-readMesh(new Uint8Array(3), { format: 'glb' });
+readMesh(new Uint8Array(3), { format: 'glb', triangleFields: 'average' });
+// @ts-expect-error a format of tables
+readMesh(new Uint8Array(3), { format: 'csv' });
 // @ts-expect-error the option is called fileName
 readMesh(new Uint8Array(3), { filename: 'x.ply' });
 // @ts-expect-error a mesh is made of the arrays
@@ -48,8 +50,9 @@ file.mesh;
 const heat: Float64Array = readField(new Uint8Array(3), { format: 'csv', column: 'heat' });
 readField(new Uint8Array(3), { format: 'txt', column: 2 });
 readField(new Uint8Array(3), { fileName: 'x.csv' });
-// @ts-expect-error not built yet
-readField(new Uint8Array(3), { format: 'npy' });
+readField(new Uint8Array(3), { format: 'npy', vertices: 3, triangles: 1 });
+// @ts-expect-error no format of tables
+readField(new Uint8Array(3), { format: 'stl' });
 const { columns, warnings } = readTable(new Uint8Array(3), { format: 'csv', fileName: 'x.csv' });
 same<[typeof columns, typeof warnings], [Record<string, Float64Array<ArrayBuffer>>, Diagnostic[]]>(true);
 // @ts-expect-error all columns are read
@@ -60,8 +63,9 @@ const bytes: Uint8Array = writeMesh(file, { format: 'vtk', binary: true, fields:
 writeMesh({ positions: [0, 0, 0] as const, triangles: new Uint16Array(3) }, { format: 'ply', missing: 'omit' });
 // @ts-expect-error the format has no default
 writeMesh(file, {});
-// @ts-expect-error not built yet
 writeMesh(file, { format: 'vtp' });
+// @ts-expect-error read only
+writeMesh(file, { format: 'vtu' });
 // @ts-expect-error its arrays are wanted
 writeMesh(new TriMesh(file.positions, file.triangles), { format: 'ply' });
 

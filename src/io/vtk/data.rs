@@ -13,6 +13,12 @@ pub(super) enum ArrayType {
     Text,
 }
 
+impl ArrayType {
+    pub(super) fn is_real(self) -> bool {
+        matches!(self, Self::Number(NumberType::F32 | NumberType::F64))
+    }
+}
+
 /// Numbers whose bytes are known to be there, and at which the text stands.
 #[derive(Debug)]
 #[must_use]
@@ -66,7 +72,7 @@ impl Data<'_> {
     }
 
     /// Reads the numbers of a block.
-    pub(super) fn numbers(&mut self, block: &Block, mut visit: impl FnMut(f64)) -> Result<(), ParseError> {
+    pub(super) fn numbers(&mut self, block: &Block, visit: &mut dyn FnMut(f64)) -> Result<(), ParseError> {
         let &Block { kind, count } = block;
         if !self.binary {
             for _ in 0..count {
@@ -100,7 +106,7 @@ impl Data<'_> {
         &mut self,
         kind: NumberType,
         count: u64,
-        mut visit: impl FnMut(i64) -> Result<(), ParseError>,
+        visit: &mut dyn FnMut(i64) -> Result<(), ParseError>,
     ) -> Result<(), ParseError> {
         // Their bytes are there, so that a visitor may keep them.
         let Block { count, .. } = self.block(ArrayType::Number(kind), count)?;
@@ -122,7 +128,7 @@ impl Data<'_> {
     pub(super) fn skip(&mut self, kind: ArrayType, count: u64) -> Result<(), ParseError> {
         if kind != ArrayType::Text {
             let block = self.block(kind, count)?;
-            return self.numbers(&block, |_| {});
+            return self.numbers(&block, &mut |_| {});
         }
         if self.binary {
             self.text.start_of_binary();

@@ -46,10 +46,14 @@ export interface FormatInfo {
 export function formats(): FormatInfo[];
 
 /** The names of file formats for meshes. */
-export type MeshFormat = 'obj' | 'off' | 'ply' | 'vtk';
+export type MeshFormat =
+  'obj' | 'off' | 'ply' | 'stl' | 'vtk' | 'vtp' | 'vtu' | 'glb' | 'msh' | 'gii' | 'freesurfer' | 'asc';
+
+/** Those of them that can be written. */
+export type WritableMeshFormat = 'obj' | 'off' | 'ply' | 'stl' | 'vtk' | 'vtp' | 'glb';
 
 /** The names of file formats for fields and tables. */
-export type TableFormat = 'txt' | 'csv';
+export type TableFormat = 'txt' | 'csv' | 'npy' | 'gii' | 'curv';
 
 /** What {@link readMesh} found. Nothing has been checked as a mesh: `new TriMesh(…)` of the main entry does that. */
 export interface MeshFile {
@@ -57,9 +61,17 @@ export interface MeshFile {
   positions: OwnFloat64Array;
   /** Three vertices for every triangle, numbered from 0. */
   triangles: OwnUint32Array;
-  /** One value per vertex, by name. Missing values are NaN, with a warning. Components of an array `v` are `v_0`, `v_1`, … */
+  /**
+   * One value per vertex, by name. Missing values are NaN, with a warning. Components of an array `v` are `v_0`, `v_1`, …, and of a
+   * vector also `v_magnitude`.
+   */
   fields: Record<string, OwnFloat64Array>;
-  /** For every vertex of the file the vertex that it became by welding; null where they are the same. */
+  /** One value per triangle, by name: where a face became several triangles, each has its value. */
+  triangleFields: Record<string, OwnFloat64Array>;
+  /**
+   * For every vertex its number in the file, null where they are the same: vertices inside of volumes are left out, and those that are
+   * nowhere; of welded ones it is the first. `Float64Array.from(vertexMap, (v) => values[v])` takes values from the file's vertices.
+   */
   vertexMap: OwnUint32Array | null;
   format: MeshFormat;
   /** What was left out or put right. What is to be said of the mesh itself, `TriMesh.warnings` has. */
@@ -77,11 +89,13 @@ export interface ReadMeshOptions {
    * warning (`WeldedValues`) where these differ by more than rounding. Default `false`.
    */
   weld?: Weld;
+  /** `"average"` adds fields on triangles to `fields`: means weighted by area, with a warning. Default `"keep"`. */
+  triangleFields?: 'keep' | 'average';
 }
 
 /**
- * Reads a mesh and the fields that come with it: OBJ, OFF, PLY (text, binary of both byte orders), legacy VTK PolyData (text,
- * binary). Polygons are cut into triangles.
+ * Reads a mesh and the fields that come with it, of any of the {@link formats}, also within gzip. Polygons are cut into triangles; of
+ * cells that fill a volume the outer surface is read.
  *
  * @throws the codes for files of {@link MorseSmoothError.code}; with `weld` those for meshes, too
  */
@@ -97,15 +111,20 @@ export interface ReadTableOptions {
 
 /** What {@link readField} takes. */
 export interface ReadFieldOptions extends ReadTableOptions {
-  /** The column of a table: its name in the first line, or its number from 0. Default: the first column of numbers. */
+  /** The column of a table: its name, or its number from 0. Default: the only column of numbers. */
   column?: string | number;
+  /** The vertices of the mesh that the field is for; another number of values is an error, which says what may have happened. */
+  vertices?: number;
+  /** The triangles of that mesh, by which values for triangles are recognised. */
+  triangles?: number;
 }
 
 /**
- * Reads a field from text: numbers with blanks or line ends between them, or a column of a table with commas, semicolons or tabs.
- * `nan` is a missing value, NaN in the field.
+ * Reads a field: numbers in lines, or a column of a table as {@link readTable} reads it. `nan` and empty cells are missing values, NaN in
+ * the field.
  *
- * @throws `InvalidNumber` with the `line`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
+ * @throws `AmbiguousColumn` with the `columns` where there are several of numbers and none is named; `InvalidNumber` with the `line`;
+ * `WrongRowCount`; `NonFiniteValue` with the `vertex` for what is infinite; `UnknownColumn`; `EmptyFile`
  */
 export function readField(bytes: Bytes, options?: ReadFieldOptions): OwnFloat64Array;
 
@@ -120,8 +139,9 @@ export interface TableFile {
 }
 
 /**
- * Reads all columns of a table: between commas, semicolons or tabs, or else between blanks. Empty cells and `nan` are missing values.
- * Columns of text are left out, with a warning.
+ * Reads all columns of a table: between commas, semicolons, tabs, bars or blanks, with decimal points or commas, with or without a
+ * header, in UTF-8 or UTF-16, as told from the whole of it; or an array of NumPy, or values of GIFTI or FreeSurfer. Empty cells, `nan` and
+ * `NA` are missing values. Columns of text are left out, with a warning.
  *
  * @throws `InvalidSyntax` with the `line` for a row with another number of cells than the first; `MissingElement` where there are no
  * numbers; `EmptyFile`
@@ -136,18 +156,18 @@ export interface MeshArrays {
 
 /** What {@link writeMesh} takes. */
 export interface WriteMeshOptions {
-  format: MeshFormat;
-  /** Fields to write along, by name; PLY and VTK have room for them (otherwise `FieldsNotSupported`). */
+  format: WritableMeshFormat;
+  /** Fields to write along, by name; PLY, VTK, VTP and GLB have room for them (otherwise `FieldsNotSupported`). */
   fields?: Record<string, Numbers>;
-  /** Whether the file is binary, as PLY and VTK can be (otherwise `BinaryNotSupported`). Default `false`. */
+  /** Whether the file is binary, as PLY, STL, VTK and VTP can be (otherwise `BinaryNotSupported`) and GLB always is. Default `false`. */
   binary?: boolean;
   /** What NaN in a field means: `"omit"` writes it as it is, for there is no value. Default `"error"` (`NonFiniteValue`). */
   missing?: 'error' | 'omit';
 }
 
 /**
- * Writes a mesh, and fields where the format has room for them, in double precision. In PLY names, blanks become `_`; an empty
- * name becomes `field`, and a name that is there already (in PLY also `x`, `y`, `z`) gets a number.
+ * Writes a mesh, and fields where the format has room for them, in double precision (binary STL and GLB: single). PLY has plain
+ * names, and the true ones in comments; an empty name becomes `field`, and a name that is there already gets a number.
  *
  * @throws the codes for meshes of {@link MorseSmoothError.code}, but for those of areas; `LengthMismatch`, `NonFiniteValue`
  */

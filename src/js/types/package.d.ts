@@ -112,8 +112,8 @@ export class MorseSmoothError extends Error {
    * Names the failure for programs; stays the same while messages improve.
    *
    * - files: `EmptyFile`, `UnknownFormat`, `UnsupportedFormat`, `UnsupportedFeature`, `Truncated`, `UnexpectedEnd`,
-   *   `InvalidNumber`, `InvalidSyntax`, `MissingElement`, `FaceIndexOutOfBounds`, `UnknownColumn`, `TooLarge`,
-   *   `FieldsNotSupported`, `BinaryNotSupported`
+   *   `InvalidNumber`, `InvalidSyntax`, `DamagedData`, `MissingElement`, `FaceIndexOutOfBounds`, `UnknownColumn`, `AmbiguousColumn`
+   *   (`columns` that there are), `WrongRowCount`, `TooLarge`, `FieldsNotSupported`, `BinaryNotSupported`
    * - meshes: `EmptyMesh`, `PositionsNotTriples`, `TrianglesNotTriples`, `TooManyElements`, `NonFinitePosition`,
    *   `PositionOverflow`, `IndexOutOfBounds`, `ZeroArea`, `ZeroWeightSum`
    * - fields: `LengthMismatch`, `NonFiniteValue`, `MissingValue`, `RangeOverflow`, `NonFiniteLevel`, `NotAnExtremum`

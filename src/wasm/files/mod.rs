@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::error::{FieldError, MeshError, OptionError, OutOfMemory};
 use crate::field::Missing;
-use crate::io::{self, Column, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
+use crate::io::{self, Column, ExpectedRows, FieldFormat, FieldReadOptions, MeshFormat, ReadOptions, WriteOptions};
 use crate::load::{LoadOptions, load_arrays};
 use crate::mesh;
 use crate::wasm::shared::answer::{Answer, array};
@@ -32,19 +32,21 @@ pub fn formats() -> Array {
     list.collect()
 }
 
-/// Reads a mesh file into `{ positions, triangles, fields, vertexMap, format, warnings }`.
+/// Reads a mesh file into `{ positions, triangles, fields, triangleFields, vertexMap, format, warnings }`.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(file: &Uint8Array, options: &JsValue) -> Result<Object, Thrown> {
     let options = read("", options, |record| {
         let read = ReadOptions { format: record.choice("format"), file_name: record.text("fileName") };
-        LoadOptions { read, weld: weld(record) }
+        let triangle_fields = record.choice("triangleFields").unwrap_or_default();
+        LoadOptions { read, weld: weld(record), triangle_fields }
     })?;
     let loaded = load_arrays(&bytes(file)?, &options).map_err(from_weld)?;
     let answer = Answer::new();
     answer.array("positions", &loaded.positions);
     answer.array("triangles", &loaded.triangles);
     answer.set("fields", &by_name(&loaded.fields)?.into());
-    match &loaded.vertex_map {
+    answer.set("triangleFields", &by_name(&loaded.triangle_fields)?.into());
+    match &loaded.file_vertices {
         Some(map) => answer.array("vertexMap", map),
         None => answer.set("vertexMap", &JsValue::NULL),
     }
@@ -66,7 +68,12 @@ fn by_name(fields: &[(String, Vec<f64>)]) -> Result<Object, OutOfMemory> {
 /// Reads one field.
 #[wasm_bindgen(js_name = readField)]
 pub fn read_field(file: &Uint8Array, options: &JsValue) -> Result<JsValue, Thrown> {
-    let options = read("", options, |record| FieldReadOptions { format: format(record), column: column(record) })?;
+    let options = read("", options, |record| {
+        let vertices = record.integer_of("vertices", "the number of vertices");
+        let triangles = record.integer_of("triangles", "the number of triangles").map(u64::from);
+        let expected = vertices.map(|vertices| ExpectedRows { vertices: u64::from(vertices), triangles });
+        FieldReadOptions { format: format(record), column: column(record), expected }
+    })?;
     let values = io::read_field(&bytes(file)?, &options)?;
     // What is not a number is missing; whoever uses the field says what becomes of it.
     if let Some(vertex) = values.iter().position(|value| value.is_infinite()) {

@@ -24,6 +24,11 @@ impl From<Thrown> for JsValue {
                 Detail::Signed(value) => detail.number(name, value as f64),
                 Detail::Real(value) => detail.number(name, value),
                 Detail::Text(value) => detail.text(name, &value),
+                #[cfg(feature = "files")]
+                Detail::Texts(values) => {
+                    let list: js_sys::Array = values.iter().map(|value| JsValue::from_str(value)).collect();
+                    detail.set(name, &list);
+                }
             }
         }
         object.text("code", thrown.0.code());
