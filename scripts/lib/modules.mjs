@@ -28,7 +28,7 @@ const TABLE = {
     // 36 kB for the sparse solver, 36 kB for families of all ε and the choice of one, 32 kB for persistence, Morse complex and the like,
     // 35 kB for prescribed extrema, 29 kB for constraints, filters and the intrinsic Delaunay Laplacian, 27 kB for missing values,
     // stopping, memory that is made sure of, welding with a tolerance and extrema that cannot be avoided, 88 kB for all else.
-    limit: 287_000,
+    limit: 295_000,
   },
   files: {
     ...besideTheMain('files'),

@@ -117,9 +117,21 @@ export class Session {
     return this.fields.has(wanted) ? [wanted] : this.entries.map(({ key }) => key);
   }
 
-  /** Refuses a field of the wrong length with both numbers, before anything else sees it. */
-  addField(name: string, values: Float64Array): string {
+  /** What the values of a field are told by: nothing where the file has other vertices than the mesh. */
+  get counts(): { vertices?: number; triangles?: number } {
+    const { vertexCount: vertices, triangleCount: triangles } = this.mesh;
+    return this.file.vertexMap === null ? { vertices, triangles } : {};
+  }
+
+  /**
+   * A field with a value for each vertex of the mesh, or of the file where some of its vertices were left out. Refuses one of another length
+   * with both numbers, before anything else sees it.
+   */
+  addField(name: string, given: Float64Array): string {
     const { vertexCount } = this.mesh;
+    const map = this.file.vertexMap;
+    const isOfFile = map !== null && given.length !== vertexCount && map.every((vertex) => vertex < given.length);
+    const values = isOfFile ? Float64Array.from(map, (vertex) => given[vertex]!) : given;
     if (values.length !== vertexCount) {
       throw new Refusal(
         'LengthMismatch',

@@ -1,7 +1,7 @@
 /** The page's worker: loads the WebAssembly modules once and answers one request after the other. */
 import init, { TriMesh, version } from 'morse-smooth';
 import type { EpsilonRule } from 'morse-smooth';
-import initFiles, { readField, readMesh } from 'morse-smooth/files';
+import initFiles, { MorseSmoothError, readField, readMesh, readTable } from 'morse-smooth/files';
 import initPictures from 'morse-smooth/snapshot';
 import { failureOf, Refusal } from './failure';
 import type { Part, Reply, Request, Settings } from './protocol';
@@ -40,12 +40,14 @@ const send = (part: Part): void => post({ kind: 'part', part });
  * opens all the same, and what was wrong with the first is said in the end.
  */
 async function open({ file, added, settings, smooth }: Extract<Request, { kind: 'open' }>): Promise<void> {
-  const read = readMesh(await bytesOf(file), { fileName: file.name });
+  const bytes = await bytesOf(file);
+  const read = named(file, () => readMesh(bytes, { fileName: file.name, triangleFields: 'average' }));
   const mesh = new TriMesh(read.positions, read.triangles);
   const opened = new Session(read, mesh, file.name, (fraction) => post({ kind: 'progress', fraction }));
   const troubles: unknown[] = [];
   try {
-    for (const field of added) opened.addField(field.name, await fieldOf(field));
+    for (const field of added)
+      for (const [name, values] of await fieldsOf(field, opened)) opened.addField(name, values);
     const usable = opened.candidates(settings.field).find((field) => {
       try {
         begin(opened, { ...settings, field });
@@ -73,7 +75,14 @@ function begin(opened: Session, settings: Settings): void {
 
 async function addField({ file, settings }: Extract<Request, { kind: 'addField' }>): Promise<void> {
   if (!session) throw new Refusal('NoMesh', 'Open a mesh before adding a field to it.');
-  const key = session.addField(file.name, await fieldOf(file));
+  const fields = await fieldsOf(file, session);
+  const keys = fields.map(([name, values]) => session!.addField(name, values));
+  const [key] = keys;
+  if (key === undefined || keys.length > 1) {
+    session.sendFields(send, settings.field);
+    const columns = fields.map(([name]) => name).join(', ');
+    throw new Refusal('AmbiguousColumn', `${file.name} has several columns. Choose one as the field: ${columns}.`);
+  }
   session.sendFields(send, key);
   update(session, { ...settings, field: key });
 }
@@ -107,8 +116,25 @@ async function bytesOf(file: File): Promise<Uint8Array> {
   return new Uint8Array(await file.arrayBuffer());
 }
 
-async function fieldOf(file: File): Promise<Float64Array> {
-  return readField(await bytesOf(file), { fileName: file.name });
+/** Reads a file: what is wrong with it is said with its name, since several may have been dropped. */
+function named<T>(file: File, read: () => T): T {
+  try {
+    return read();
+  } catch (error) {
+    throw error instanceof MorseSmoothError ? new Refusal(error.code, `${file.name}: ${error.message}`) : error;
+  }
+}
+
+/** The fields of a file by what they are to be called: the only column of a table, or all. */
+async function fieldsOf(file: File, open: Session): Promise<[string, Float64Array][]> {
+  const bytes = await bytesOf(file);
+  try {
+    return [[file.name, named(file, () => readField(bytes, { fileName: file.name, ...open.counts }))]];
+  } catch (error) {
+    if (!(error instanceof Refusal && error.code === 'AmbiguousColumn')) throw error;
+    const { columns } = readTable(bytes, { fileName: file.name });
+    return Object.entries(columns).map(([column, values]) => [`${file.name}: ${column}`, values]);
+  }
 }
 
 async function answer(request: Request): Promise<void> {
