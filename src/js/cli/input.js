@@ -1,0 +1,137 @@
+// What a command is given: a mesh with its fields, out of a file or the standard input, and a field from another file.
+import { readFileSync } from 'node:fs';
+import { basename } from 'node:path';
+import { about, misuse } from './failures.js';
+
+/** The bytes of a file, or of the standard input. */
+export async function bytesOf(path) {
+  if (path !== '-') return about(path, () => readFileSync(path));
+  const chunks = [];
+  for await (const chunk of process.stdin) chunks.push(chunk);
+  return Buffer.concat(chunks);
+}
+
+/**
+ * A mesh file as it is to be used: its arrays, its fields, which `take` finds by name, and `mesh()`, which makes a `TriMesh` of it.
+ * `notes` is told what was left out or put right.
+ */
+export async function readInput(input, given, notes) {
+  const [{ formats, readMesh }, bytes] = [await import('morse-smooth/files'), await bytesOf(input)];
+  const options = {
+    ...(given.format && { format: given.format }),
+    ...(input !== '-' && { fileName: basename(input) }),
+  };
+  const read = (more) =>
+    about(input, () => {
+      try {
+        return readMesh(bytes, { ...options, ...more });
+      } catch (error) {
+        const names = formats().flatMap(({ name, reads }) => (reads ? [name] : []));
+        if (error.code === 'UnknownFormat') {
+          error.advice = `there are ${names.join(', ')}; values without a mesh go beside one, by --values`;
+        }
+        throw error;
+      }
+    });
+  let file = read(given.triangleFields && { triangleFields: given.triangleFields });
+  const wanted = [given.field ?? []].flat();
+  // A field on triangles that is asked for by its name.
+  if (wanted.some((name) => !(name in file.fields) && name in (file.triangleFields ?? {}))) {
+    file = read({ triangleFields: 'average' });
+  }
+  notes.warn(input, file.warnings);
+  const { fields } = file;
+  const vertices = file.positions.length / 3;
+  if (given.values === undefined) return welded({ ...file, own: fields, chosen: null }, input, given, notes);
+  if (given.values === '-' && input === '-') throw misuse('the mesh and the values cannot both be the standard input');
+  const chosen = await readValues(given, { ...file, vertices });
+  return welded(
+    { ...file, own: fields, fields: { ...fields, [chosen.name]: chosen.values }, chosen: chosen.name },
+    input,
+    given,
+    notes,
+  );
+}
+
+/** A field from another file: one value for each vertex of the mesh, or for each of its file where some were left out. */
+async function readValues({ values: path, column }, { vertices, triangles, vertexMap }) {
+  const { readField, readTable } = await import('morse-smooth/files');
+  const bytes = await bytesOf(path);
+  const options = path === '-' ? {} : { fileName: basename(path) };
+  const chosen = column === undefined ? {} : { column: /^\d+$/.test(column) ? Number(column) : column };
+  return about(path, () => {
+    const name = column ?? (path === '-' ? 'values' : basename(path).replace(/\.[^.]*$/, ''));
+    if (column === undefined) {
+      const columns = columnsOf(() => readTable(bytes, options), vertices);
+      if (columns.length > 1) throw misuse(`there are several columns: ${columns.join(', ')}`, 'name one by --column');
+    }
+    const values = readField(bytes, { ...options, ...chosen });
+    if (vertexMap && values.length > vertices) return { name, values: Float64Array.from(vertexMap, (v) => values[v]) };
+    if (values.length === vertices) return { name, values };
+    const perTriangle = values.length === triangles.length / 3 ? ', as many as the mesh has triangles' : '';
+    const message = `${vertices} values are needed, one for each vertex, but there are ${values.length}${perTriangle}`;
+    throw Object.assign(new Error(message), {
+      code: 'LengthMismatch',
+      detail: { expected: vertices, actual: values.length },
+    });
+  });
+}
+
+/** The names of the columns that could be meant: those of a table with a row for each vertex. */
+function columnsOf(read, vertices) {
+  try {
+    return Object.entries(read().columns).flatMap(([name, { length }]) => (length === vertices ? [name] : []));
+  } catch {
+    // No table; whatever else it is, reading the field says what is wrong with it.
+    return [];
+  }
+}
+
+/** Joins vertices where that is asked for, with the fields on them. */
+async function welded(file, input, given, notes) {
+  const { weld, tolerance } = given;
+  const arrays = { positions: file.positions, triangles: file.triangles };
+  const { TriMesh } = await import('morse-smooth');
+  const options = weld || tolerance !== undefined ? { weld: tolerance === undefined ? true : { tolerance } } : {};
+  const make = () => about(input, () => new TriMesh(file.positions, file.triangles, options));
+  if (!options.weld) return { ...file, ...arrays, make };
+  const mesh = make();
+  const map = mesh.vertexMap();
+  const entries = Object.entries(file.fields).map(([name, values]) => [
+    name,
+    map ? carried(values, map, mesh.vertexCount) : values,
+  ]);
+  if (map)
+    notes.say(
+      `${map.length - mesh.vertexCount} vertices became others by welding; values at the same place became their mean`,
+    );
+  const result = { positions: mesh.positions(), triangles: mesh.triangles(), fields: Object.fromEntries(entries) };
+  const again = () => mesh;
+  return { ...file, ...result, make: again };
+}
+
+/** For each vertex of a welded mesh the mean of the values that came to it; equal ones stay as they are. */
+function carried(values, map, count) {
+  const [first, sums, numbers] = [new Float64Array(count), new Float64Array(count), new Uint32Array(count)];
+  map.forEach((vertex, from) => {
+    if (numbers[vertex]++ === 0) first[vertex] = values[from];
+    else sums[vertex] += values[from] - first[vertex];
+  });
+  return first.map((value, vertex) => value + sums[vertex] / numbers[vertex]);
+}
+
+/** The field that a command is about: the one that is named, or the only one. */
+export function chooseField({ fields, own, chosen }, { field }, input) {
+  const name = chosen ?? field ?? (Object.keys(own).length === 1 ? Object.keys(own)[0] : undefined);
+  if (name !== undefined && Object.hasOwn(fields, name)) return { name, values: fields[name] };
+  const names = Object.keys(own).join(', ');
+  const place = input === '-' ? 'the mesh' : input;
+  if (name !== undefined) {
+    throw misuse(
+      `${place} has no field ‘${name}’`,
+      names ? `it has ${names}` : 'give one from another file by --values',
+    );
+  }
+  if (names === '') throw misuse(`${place} has no field`, 'give one from another file by --values');
+  throw misuse(`${place} has several fields: ${names}`, 'name one by --field');
+}
