@@ -41,10 +41,8 @@ const ADVICE = {
     ('complete' in options && 'try --complete') || ('unconstrained' in options && 'try --unconstrained keep'),
   FieldsNotSupported: () => 'choose another format by --to, or csv for the values alone',
   BinaryNotSupported: () => 'leave out --binary, or choose another format by --to',
-  EmptyMesh: () => 'is it a file of values? Those are given by --values, beside a mesh',
-  UnknownColumn: () => 'name one that is there by --column',
   AmbiguousColumn: () => 'name one by --column',
-  TooFewExtrema: () => 'try --of input, or a larger --epsilon',
+  TooFewExtrema: () => 'try --of input',
   Diverged: () => 'try --weights intrinsic-delaunay or uniform',
 };
 
@@ -95,10 +93,12 @@ const idsOf = (detail) =>
 
 /** A message of the API with its options as they are written here; the object that an option is in does not matter. */
 function inFlags(message) {
-  const inWords = message.replace(/`(?:\w+\.)*(\w+)`/g, (whole, name) => {
-    if (name === 'rule' && whole.includes('epsilon')) return '--epsilon';
-    if (name === 'from') return whole.includes('extrema') ? '--extrema' : '--constraints';
-    return isOption(name) ? `--${kebab(name)}` : whole;
-  });
-  return inWords.replace(/\boption (?=--)/, '');
+  const inWords = message
+    .replace('(option `values`)', '(without --keep-values)')
+    .replace(/`(?:\w+\.)*(\w+)`/g, (whole, name) => {
+      if (name === 'rule' && whole.includes('epsilon')) return '--epsilon';
+      if (name === 'from') return whole.includes('extrema') ? '--extrema' : '--constraints';
+      return isOption(name) ? `--${kebab(name)}` : whole;
+    });
+  return inWords.replace(/\b(the )?option (?=--)/g, '');
 }

@@ -60,12 +60,16 @@ async function readValues({ values: path, column }, { vertices, triangles, verte
   const options = path === '-' ? {} : { fileName: basename(path) };
   const chosen = column === undefined ? {} : { column: /^\d+$/.test(column) ? Number(column) : column };
   return about(path, () => {
-    const name = column ?? (path === '-' ? 'values' : basename(path).replace(/\.[^.]*$/, ''));
+    const base = path === '-' ? 'values' : basename(path).replace(/\.[^.]*$/, '');
+    const name = typeof chosen.column === 'number' ? `${base}_${column}` : (column ?? base);
     if (column === undefined) {
       const columns = columnsOf(() => readTable(bytes, options), vertices);
       if (columns.length > 1) throw misuse(`there are several columns: ${columns.join(', ')}`, 'name one by --column');
     }
-    const values = readField(bytes, { ...options, ...chosen });
+    const values = withColumns(
+      () => readField(bytes, { ...options, ...chosen }),
+      () => columnsOf(() => readTable(bytes, options)),
+    );
     if (vertexMap && values.length > vertices) return { name, values: Float64Array.from(vertexMap, (v) => values[v]) };
     if (values.length === vertices) return { name, values };
     const perTriangle = values.length === triangles.length / 3 ? ', as many as the mesh has triangles' : '';
@@ -77,10 +81,21 @@ async function readValues({ values: path, column }, { vertices, triangles, verte
   });
 }
 
-/** The names of the columns that could be meant: those of a table with a row for each vertex. */
-function columnsOf(read, vertices) {
+/** Says which columns there are where one is asked for that is not among them. */
+function withColumns(read, list) {
   try {
-    return Object.entries(read().columns).flatMap(([name, { length }]) => (length === vertices ? [name] : []));
+    return read();
+  } catch (error) {
+    if (error.code === 'UnknownColumn') error.advice = `there are ${list().join(', ')}`;
+    throw error;
+  }
+}
+
+/** The names of the columns of a table, of those with so many rows where that is known. */
+function columnsOf(read, rows) {
+  try {
+    const isLong = ({ length }) => rows === undefined || length === rows;
+    return Object.entries(read().columns).flatMap(([name, values]) => (isLong(values) ? [name] : []));
   } catch {
     // No table; whatever else it is, reading the field says what is wrong with it.
     return [];
@@ -121,7 +136,7 @@ function carried(values, map, count) {
 }
 
 /** The field that a command is about: the one that is named, or the only one. */
-export function chooseField({ fields, own, chosen }, { field }, input) {
+export function chooseField({ fields, own, chosen, triangleFields }, { field }, input) {
   const name = chosen ?? field ?? (Object.keys(own).length === 1 ? Object.keys(own)[0] : undefined);
   if (name !== undefined && Object.hasOwn(fields, name)) return { name, values: fields[name] };
   const names = Object.keys(own).join(', ');
@@ -130,6 +145,13 @@ export function chooseField({ fields, own, chosen }, { field }, input) {
     throw misuse(
       `${place} has no field ‘${name}’`,
       names ? `it has ${names}` : 'give one from another file by --values',
+    );
+  }
+  const onTriangles = Object.keys(triangleFields ?? {}).join(', ');
+  if (names === '' && onTriangles !== '') {
+    throw misuse(
+      `${place} has fields on triangles alone: ${onTriangles}`,
+      'name one by --field, for its means on vertices',
     );
   }
   if (names === '') throw misuse(`${place} has no field`, 'give one from another file by --values');

@@ -18,8 +18,8 @@ const flag = (help) => ({ kind: 'flag', help });
 /** What people may give for an option of the API, for those that a command line has. */
 const TABLE = {
   // Files.
-  format: text('NAME', 'the format of the mesh; default: told from content and name'),
   column: text('NAME', 'the column of the file of values: its name, or its number from 0'),
+  format: text('NAME', 'the format of the mesh; default: told from content and name'),
   weld: flag('vertices at the same place become one'),
   tolerance: number('X', 'welds also what is nearer than this part of the bounding box’s diagonal'),
   triangleFields: choice('NAME', 'average: fields on triangles become fields on vertices'),

@@ -14,9 +14,10 @@ const TRIANGLE = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], triangles: [0, 1, 2] 
 /** Ends a command where whoever reads its output has gone away, as `head` does: that is no failure. */
 export function endWithReader() {
   process.stdout.on('error', (error) => {
+    // Whatever else it is, `write` tells.
     if (error.code === 'EPIPE') process.exit(0);
-    throw error;
   });
+  process.stderr.on('error', () => {});
 }
 
 /**
@@ -24,7 +25,12 @@ export function endWithReader() {
  * While the file is written, an interruption waits.
  */
 export async function write(path, content) {
-  if (path === '-') return new Promise((done) => process.stdout.write(content, () => done()));
+  if (path === '-') {
+    return new Promise((done, fail) => {
+      const refuse = (error) => fail(Object.assign(error, { place: 'standard output' }));
+      process.stdout.write(content, (error) => (error ? refuse(error) : done()));
+    });
+  }
   const target = about(path, () => whole(path));
   if (target.isOther) return about(path, () => writeFileSync(path, content));
   const temporary = `${target.path}.${process.pid}.tmp`;
@@ -86,12 +92,13 @@ export async function targetOf({ output, to, binary = false }) {
     throw misuse(`‘${format}’ is no format that can be written`, `there are ${names.join(', ')}`);
   checkPlace(output);
   const isTable = format in TABLES;
+  const probe = (more) => writeMesh(TRIANGLE, { format, binary, ...more });
   // A terminal that is sent bytes stays in disorder.
-  if (path === '-' && process.stdout.isTTY && binary)
+  const isBinary = !isTable && probe().includes(0);
+  if (isBinary && path === '-' && process.stdout.isTTY) {
     throw misuse('a binary file does not go to a terminal', 'name a file by -o');
-  const probe = (fields) => writeMesh(TRIANGLE, { format, binary, ...(fields && { fields }) });
-  if (!isTable) probe();
-  const refuse = isTable ? null : problemOf(() => probe({ value: [0, 0, 0] }));
+  }
+  const refuse = isTable ? null : problemOf(() => probe({ fields: { value: [0, 0, 0] } }));
   return {
     path,
     format,

@@ -19,7 +19,7 @@ export const convert = {
   examples: [
     'morse-smooth convert surface.vtk -o surface.ply --binary',
     'morse-smooth convert torus.ply --field noisy --to txt > noisy.txt',
-    'morse-smooth convert bunny.obj --values heat.csv --column T -o bunny.ply',
+    'morse-smooth convert shape.obj --values heat.csv --column T -o shape.ply',
     'cat torus.ply | morse-smooth convert - --to off > torus.off',
   ],
   async run({ input, given, notes }) {

@@ -37,7 +37,7 @@ export const prescribe = {
   examples: [
     'morse-smooth prescribe terrain.ply --epsilon 0.02 --threshold 0.05 -o exact.ply',
     'morse-smooth prescribe terrain.ply --epsilon 0.02 --minima 5 --maxima 8 -o exact.ply',
-    'morse-smooth prescribe torus.ply --field noisy --extrema named --minima 12 --maxima 371 -o exact.ply',
+    'morse-smooth prescribe torus.ply --field noisy --extrema named --minima 599 --maxima 26 -o exact.ply',
   ],
   async run({ input, given, notes }) {
     const target = await targetOf(given);

@@ -5,7 +5,6 @@ import { write } from '../output.js';
 
 /** Writes the mesh with its new field, then the report, each to its place. */
 export async function deliver(target, { name, values, json, lines }, { input, file, field, given, notes }) {
-  if (target?.refuse) throw target.refuse;
   const about = { file: input, field: field.name, name, ...(target && target.path !== '-' && { output: target.path }) };
   const text = given.json ? jsonText({ ...about, ...json }) : [`${field.name} → ${name}`, ...lines, ''].join('\n');
   notes.clear();

@@ -23,7 +23,7 @@ export const simplify = {
   },
   examples: [
     'morse-smooth simplify torus.ply --field noisy --threshold 0.1 -o simple.ply',
-    'morse-smooth simplify torus.ply --field noisy --keep 12,371,4020 -o simple.ply',
+    'morse-smooth simplify torus.ply --field noisy --keep 599,26 -o simple.ply',
   ],
   async run({ input, given, notes }) {
     needed(given, ['threshold', 'keep'], 'such as --threshold 0.05, relative to the range of the field');

@@ -4,7 +4,7 @@ import { targetOf } from '../output.js';
 import { api, own, take, written } from '../options.js';
 import { pick } from './critical.js';
 import { constraintsOf, epsilonOf } from './rules.js';
-import { deliver, smoothLines } from './result.js';
+import { deliver, refuseFieldless, smoothLines } from './result.js';
 
 const METHODS = ['tikhonov', 'leastSquares', 'interpolate', 'lowPass', 'bilateral'];
 const SYSTEMS = take(api.core['new Smoother']);
@@ -20,7 +20,7 @@ export const smooth = {
   name: 'smooth',
   summary: 'smooths a field, with or without constraints',
   about:
-    'Writes the mesh with one field more, and prints what smoothing did. Without -o and --to it prints alone; where the mesh goes to the standard output, the report goes to the standard error output.',
+    'Writes the mesh with one field more, and prints what smoothing did. Without -o and --to it only prints; where the mesh goes to the standard output, the report goes to the standard error output.',
   options: {
     ...own.field,
     ...take('column', api.files.readMesh, api.files.weld),
@@ -33,11 +33,12 @@ export const smooth = {
   examples: [
     'morse-smooth smooth torus.ply --field noisy --epsilon 0.05 -o smooth.ply',
     'morse-smooth smooth torus.ply --field noisy --constraints persistence --threshold 0.1 --epsilon 0.05 -o kept.vtk',
-    'morse-smooth smooth bunny.obj --values heat.csv --column T --epsilon auto --to csv > smooth.csv',
+    'morse-smooth smooth shape.obj --values heat.csv --column T --epsilon auto --to csv > smooth.csv',
     'morse-smooth smooth torus.ply --field noisy --method low-pass --iterations 50 --lambda 0.5 --mu -0.53',
   ],
   async run({ input, given, notes }) {
     const target = await targetOf(given);
+    refuseFieldless(target);
     const options = settingsOf(given);
     const file = await readInput(input, given, notes);
     const field = chooseField(file, given, input);
