@@ -2,13 +2,16 @@
 import { spawn, spawnSync } from 'node:child_process';
 import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { inject } from 'vitest';
 import { readMesh, writeMesh } from 'morse-smooth/files';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
-export const script = join(inject('installed'), 'node_modules', 'morse-smooth', 'dist', 'cli.mjs');
+const packages = join(inject('installed'), 'node_modules');
+/** Where npm puts the commands of packages. */
+export const commands = join(packages, '.bin');
+const script = join(packages, 'morse-smooth', 'dist', 'cli.mjs');
 
 /** A folder with the files that the examples name, in which commands run. */
 export function workplace() {
@@ -48,10 +51,11 @@ export function workplace() {
     json: (words, options) => JSON.parse(run([...words, '--json'], options).stdout),
     read: (name) => readMesh(readFileSync(at(name)), { fileName: name }),
     start: (words) => spawn(process.execPath, [script, ...words], { cwd: folder }),
-    /** Runs a line of a shell in which `morse-smooth` is the command. */
+    /** Runs a line of a shell that finds the command. */
     shell(line) {
-      const command = `morse-smooth() { "${process.execPath}" "${script}" "$@"; }\n${line}`;
-      const { status, stdout, stderr } = spawnSync('sh', ['-c', command], { cwd: folder, encoding: 'utf8' });
+      const PATH = [commands, dirname(process.execPath), process.env.PATH].join(delimiter);
+      const env = { ...process.env, PATH };
+      const { status, stdout, stderr } = spawnSync('sh', ['-c', line], { cwd: folder, env, encoding: 'utf8' });
       return { status, stdout, stderr };
     },
     remove: () => rmSync(folder, { recursive: true, force: true }),

@@ -80,7 +80,7 @@ export function told(error, command) {
   const place = error.place === undefined ? '' : `${error.place === '-' ? 'standard input' : error.place}: `;
   const code = typeof error.code === 'string' ? error.code : 'InternalError';
   const exit = error.exit ?? (MISUSES.includes(code) ? MISUSED : FAILED);
-  const message = SYSTEM[code] ?? inFlags(error.message ?? String(error));
+  const message = SYSTEM[code] ?? (error instanceof Failure ? error.message : inFlags(error.message ?? String(error)));
   const advice = error.advice ?? ALSO[error.detail?.option] ?? (ADVICE[code]?.(options) || undefined);
   const known = code === 'WrongUsage' ? '' : ` (${[code, ...idsOf(error.detail)].join(', ')})`;
   const title = ['morse-smooth', ...(command ? [command.name] : [])].join(' ');

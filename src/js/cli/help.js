@@ -48,6 +48,9 @@ export function helpOf({ name, summary, about, options, examples }, lists) {
   ].join('\n');
 }
 
+const VERTICES = 'IDS are vertex numbers from 0 with commas between them, or @FILE for a file of them.';
+const takesVertices = (options) => Object.values(options).some(({ kind }) => /^vertices/.test(kind));
+
 /** Two columns, the second one broken into lines. */
 function columns(rows) {
   const indent = Math.max(...rows.map(([left]) => left.length)) + 2;

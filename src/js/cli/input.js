@@ -16,6 +16,7 @@ export async function bytesOf(path) {
  * `notes` is told what was left out or put right.
  */
 export async function readInput(input, given, notes) {
+  if (given.values === '-' && input === '-') throw misuse('the mesh and the values cannot both be the standard input');
   const [{ formats, readMesh }, bytes] = [await import('morse-smooth/files'), await bytesOf(input)];
   const options = {
     ...(given.format && { format: given.format }),
@@ -43,7 +44,6 @@ export async function readInput(input, given, notes) {
   const { fields } = file;
   const vertices = file.positions.length / 3;
   if (given.values === undefined) return welded({ ...file, own: fields, chosen: null }, input, given, notes);
-  if (given.values === '-' && input === '-') throw misuse('the mesh and the values cannot both be the standard input');
   const chosen = await readValues(given, { ...file, vertices });
   return welded(
     { ...file, own: fields, fields: { ...fields, [chosen.name]: chosen.values }, chosen: chosen.name },
