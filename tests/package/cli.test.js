@@ -6,6 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { Smoother, TriMesh } from 'morse-smooth';
 import { formats, readField, readMesh, writeMesh } from 'morse-smooth/files';
 import { sheet, snapshot } from 'morse-smooth/snapshot';
+import { api } from '../../src/js/cli/options.js';
 import { same } from '../js/same.js';
 import { workplace } from './cli.js';
 
@@ -305,6 +306,24 @@ describe('convert', () => {
     const input = readFileSync(place.at('torus.ply'));
     expect(place.output(['convert', '-', '--format', 'ply', '--to', 'off', '--quiet'], { input })).toMatch(/^OFF/);
     expectSame(readField(Buffer.from(place.output(['convert', '-', '--field', 'noisy', '--to', 'txt'], { input }))), fields.noisy); // prettier-ignore
+  });
+});
+
+describe.runIf(api.files.readMesh.includes('triangleFields'))('fields on triangles', () => {
+  it('are averaged where one is named', () => {
+    const cells = 'CELL_DATA 2\nSCALARS s double 1\nLOOKUP_TABLE default\n1\n2\n';
+    const mesh = 'POINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\n';
+    const input = `# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n${mesh}${cells}`;
+    const said = place.json(['info', '-'], { input });
+    expect(said.fields).toEqual([{ name: 's', on: 'triangles', min: 1, max: 2, missing: 0 }]);
+    expect(place.run(['critical', '-'], { input }).stderr).toContain(
+      'fields on triangles alone: s; name one by --field',
+    );
+    const { criticalPoints } = place.json(['critical', '-', '--field', 's'], { input });
+    expect(criticalPoints.map(({ vertex, value }) => [vertex, value])).toEqual([
+      [0, 1],
+      [3, 2],
+    ]);
   });
 });
 

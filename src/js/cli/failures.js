@@ -81,7 +81,8 @@ export function told(error, command) {
   const code = typeof error.code === 'string' ? error.code : 'InternalError';
   const exit = error.exit ?? (MISUSES.includes(code) ? MISUSED : FAILED);
   const message = SYSTEM[code] ?? (error instanceof Failure ? error.message : inFlags(error.message ?? String(error)));
-  const advice = error.advice ?? ALSO[error.detail?.option] ?? (ADVICE[code]?.(options) || undefined);
+  const bug = typeof error.code === 'string' ? undefined : 'this is a bug, please report it';
+  const advice = error.advice ?? bug ?? ALSO[error.detail?.option] ?? (ADVICE[code]?.(options) || undefined);
   const known = code === 'WrongUsage' ? '' : ` (${[code, ...idsOf(error.detail)].join(', ')})`;
   const title = ['morse-smooth', ...(command ? [command.name] : [])].join(' ');
   return { exit, sentence: `${title}: ${place}${message}${known}${advice ? `; ${advice}` : ''}` };

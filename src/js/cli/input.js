@@ -16,7 +16,7 @@ export async function bytesOf(path) {
  * `notes` is told what was left out or put right.
  */
 export async function readInput(input, given, notes) {
-  if (given.values === '-' && input === '-') throw misuse('the mesh and the values cannot both be the standard input');
+  checkSources(input, given);
   const [{ formats, readMesh }, bytes] = [await import('morse-smooth/files'), await bytesOf(input)];
   const options = {
     ...(given.format && { format: given.format }),
@@ -51,6 +51,15 @@ export async function readInput(input, given, notes) {
     given,
     notes,
   );
+}
+
+/** Refuses options that mean nothing beside others. */
+function checkSources(input, { field, values, column }) {
+  if (values === '-' && input === '-') throw misuse('the mesh and the values cannot both be the standard input');
+  if (values === undefined && column !== undefined) throw misuse('--column goes with --values');
+  // A list of them is what a command writes.
+  if (values !== undefined && typeof field === 'string')
+    throw misuse('--field and --values are two fields', 'give one of them');
 }
 
 /** A field from another file: one value for each vertex of the mesh, or for each of its file where some were left out. */
@@ -102,27 +111,21 @@ function columnsOf(read, rows) {
   }
 }
 
-/** Joins vertices where that is asked for, with the fields on them. */
-async function welded(file, input, given, notes) {
-  const { weld, tolerance } = given;
-  const arrays = { positions: file.positions, triangles: file.triangles };
+/** The file with a way to make its mesh; joins vertices where that is asked for, with the fields on them. */
+async function welded(file, input, { weld, tolerance }, notes) {
   const { TriMesh } = await import('morse-smooth');
-  const options = weld || tolerance !== undefined ? { weld: tolerance === undefined ? true : { tolerance } } : {};
+  const isWelded = weld || tolerance !== undefined;
+  const options = isWelded ? { weld: tolerance === undefined ? true : { tolerance } } : {};
   const make = () => about(input, () => new TriMesh(file.positions, file.triangles, options));
-  if (!options.weld) return { ...file, ...arrays, make };
+  if (!isWelded) return { ...file, make };
   const mesh = make();
   const map = mesh.vertexMap();
-  const entries = Object.entries(file.fields).map(([name, values]) => [
-    name,
-    map ? carried(values, map, mesh.vertexCount) : values,
-  ]);
-  if (map)
-    notes.say(
-      `${map.length - mesh.vertexCount} vertices became others by welding; values at the same place became their mean`,
-    );
-  const result = { positions: mesh.positions(), triangles: mesh.triangles(), fields: Object.fromEntries(entries) };
-  const again = () => mesh;
-  return { ...file, ...result, make: again };
+  if (map === null) return { ...file, make: () => mesh };
+  const count = mesh.vertexCount;
+  const fields = Object.entries(file.fields).map(([name, values]) => [name, carried(values, map, count)]);
+  notes.say(`${map.length - count} vertices became others by welding; values at the same place became their mean`);
+  const arrays = { positions: mesh.positions(), triangles: mesh.triangles() };
+  return { ...file, ...arrays, fields: Object.fromEntries(fields), make: () => mesh };
 }
 
 /** For each vertex of a welded mesh the mean of the values that came to it; equal ones stay as they are. */

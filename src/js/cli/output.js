@@ -80,7 +80,10 @@ function hold() {
 
 /** Where the mesh of a command goes, and in which format; nothing where it is not asked for. */
 export async function targetOf({ output, to, binary = false }) {
-  if (output === undefined && to === undefined) return null;
+  if (output === undefined && to === undefined) {
+    if (binary) throw misuse('--binary goes with -o or --to');
+    return null;
+  }
   const path = output ?? '-';
   const { formats, writeMesh } = await import('morse-smooth/files');
   const writable = formats().filter(({ writes, name }) => writes && !(name in TABLES));
@@ -92,6 +95,7 @@ export async function targetOf({ output, to, binary = false }) {
     throw misuse(`‘${format}’ is no format that can be written`, `there are ${names.join(', ')}`);
   checkPlace(output);
   const isTable = format in TABLES;
+  if (isTable && binary) throw misuse(`--binary is not for ${format}, which is text`);
   const probe = (more) => writeMesh(TRIANGLE, { format, binary, ...more });
   // A terminal that is sent bytes stays in disorder.
   const isBinary = !isTable && probe().includes(0);

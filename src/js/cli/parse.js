@@ -65,9 +65,10 @@ function read({ name: flag, rawName, value, inlineValue }, flags, given, refuse)
 function unknown({ rawName, name }, command, commands) {
   const namesOf = ({ options }) => [...flagsOf({ options }).keys()].join(' ');
   const own = [...flagsOf(command).keys()];
-  // A name as the API writes it, or one that is off by a letter; then those of other commands.
-  const meant =
-    own.find((flag) => flag === kebab(name)) ?? hintsOf({ [command.name]: namesOf(command) })(name)?.detail.meant;
+  // A name as the API writes it, the beginning of one, or one that is off by a letter; then those of other commands.
+  const begun = own.filter((flag) => flag.startsWith(name));
+  const near = hintsOf({ [command.name]: own.join(' ') })(name)?.detail.meant;
+  const meant = own.find((flag) => flag === kebab(name)) ?? (begun.length === 1 ? begun[0] : near);
   const there = hintsOf(Object.fromEntries(commands.map((other) => [other.name, namesOf(other)])))(name)?.detail;
   const where = there?.belongsTo?.map((other) => `‘${other}’`).join(', ');
   const advice = (meant && `did you mean --${meant}?`) ?? (where && `it is an option of ${where}`);

@@ -24,6 +24,8 @@ export const persistence = {
   async run({ input, given, notes }) {
     const target = reportTarget(given);
     const { threshold = 0, thresholdIs = 'relative' } = given;
+    if (given.thresholdIs !== undefined && given.threshold === undefined)
+      throw misuse('--threshold-is goes with --threshold');
     if (threshold < 0) throw misuse('--threshold takes a number that is not negative');
     if (!['relative', 'absolute'].includes(thresholdIs)) throw misuse('--threshold-is takes relative or absolute');
     const file = await readInput(input, given, notes);

@@ -68,7 +68,9 @@ function settingsOf(given) {
   // These are parts of others, or of the smoother.
   const ruled = { ...RULES, ...SYSTEMS, epsilon: null, constraints: null };
   const plain = Object.fromEntries(Object.entries(pick(given, OPTIONS)).filter(([name]) => !(name in ruled)));
-  if (!isOf('epsilon') && given.epsilon !== undefined) throw misuse(`--epsilon is not for --method ${method}`);
+  for (const name of ['epsilon', 'constraints']) {
+    if (!isOf(name) && given[name] !== undefined) throw misuse(`--${name} is not for --method ${method}`);
+  }
   const foreign = Object.keys(plain).find((name) => name !== 'method' && !isOf(name));
   if (foreign !== undefined) throw misuse(`${written(foreign, OPTIONS[foreign])} is not for --method ${method}`);
   const epsilon = epsilonOf(given);
