@@ -4,7 +4,7 @@ import { basename } from 'node:path';
 import { about, misuse } from './failures.js';
 
 /** The bytes of a file, or of the standard input. */
-export async function bytesOf(path) {
+async function bytesOf(path) {
   if (path !== '-') return about(path, () => readFileSync(path));
   const chunks = [];
   for await (const chunk of process.stdin) chunks.push(chunk);
@@ -12,45 +12,38 @@ export async function bytesOf(path) {
 }
 
 /**
- * A mesh file as it is to be used: its arrays, its fields, which `take` finds by name, and `mesh()`, which makes a `TriMesh` of it.
- * `notes` is told what was left out or put right.
+ * A mesh file with all that a command needs of it: the arrays and fields of `readMesh`, `own` for the fields that are in the file
+ * itself, `chosen` for the name of one from another file, `make()` for its `TriMesh`. `notes` is told what was put right.
  */
 export async function readInput(input, given, notes) {
   checkSources(input, given);
-  const [{ formats, readMesh }, bytes] = [await import('morse-smooth/files'), await bytesOf(input)];
-  const options = {
-    ...(given.format && { format: given.format }),
-    ...(input !== '-' && { fileName: basename(input) }),
-  };
-  const read = (more) =>
-    about(input, () => {
-      try {
-        return readMesh(bytes, { ...options, ...more });
-      } catch (error) {
-        const names = formats().flatMap(({ name, reads }) => (reads ? [name] : []));
-        if (error.code === 'UnknownFormat') {
-          error.advice = `there are ${names.join(', ')}; values without a mesh go beside one, by --values`;
-        }
-        throw error;
-      }
-    });
-  let file = read(given.triangleFields && { triangleFields: given.triangleFields });
-  const wanted = [given.field ?? []].flat();
-  // A field on triangles that is asked for by its name.
-  if (wanted.some((name) => !(name in file.fields) && name in (file.triangleFields ?? {}))) {
-    file = read({ triangleFields: 'average' });
-  }
+  const entry = await import('morse-smooth/files');
+  const bytes = await bytesOf(input);
+  const { format, triangleFields, field } = given;
+  const options = { ...(format && { format }), ...(input !== '-' && { fileName: basename(input) }) };
+  const read = (more) => about(input, () => recognised(entry, () => entry.readMesh(bytes, { ...options, ...more })));
+  let file = read(triangleFields && { triangleFields });
+  // A field on triangles that is asked for by its name becomes one on vertices.
+  const isOnTriangles = (name) => !Object.hasOwn(file.fields, name) && Object.hasOwn(file.triangleFields ?? {}, name);
+  if ([field ?? []].flat().some(isOnTriangles)) file = read({ triangleFields: 'average' });
   notes.warn(input, file.warnings);
-  const { fields } = file;
-  const vertices = file.positions.length / 3;
-  if (given.values === undefined) return welded({ ...file, own: fields, chosen: null }, input, given, notes);
-  const chosen = await readValues(given, { ...file, vertices });
-  return welded(
-    { ...file, own: fields, fields: { ...fields, [chosen.name]: chosen.values }, chosen: chosen.name },
-    input,
-    given,
-    notes,
-  );
+  const own = file.fields;
+  if (given.values === undefined) return welded({ ...file, own, chosen: null }, input, given, notes);
+  const { name, values } = await readValues(given, file);
+  return welded({ ...file, own, fields: { ...own, [name]: values }, chosen: name }, input, given, notes);
+}
+
+/** Says which formats there are where none is recognised. */
+function recognised({ formats }, read) {
+  try {
+    return read();
+  } catch (error) {
+    if (error.code === 'UnknownFormat') {
+      const names = formats().flatMap(({ name, reads }) => (reads ? [name] : []));
+      error.advice = `there are ${names.join(', ')}; values without a mesh go beside one, by --values`;
+    }
+    throw error;
+  }
 }
 
 /** Refuses options that mean nothing beside others. */
@@ -63,7 +56,8 @@ function checkSources(input, { field, values, column }) {
 }
 
 /** A field from another file: one value for each vertex of the mesh, or for each of its file where some were left out. */
-async function readValues({ values: path, column }, { vertices, triangles, vertexMap }) {
+async function readValues({ values: path, column }, { positions, triangles, vertexMap }) {
+  const vertices = positions.length / 3;
   const { readField, readTable } = await import('morse-smooth/files');
   const bytes = await bytesOf(path);
   const options = path === '-' ? {} : { fileName: basename(path) };

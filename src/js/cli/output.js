@@ -70,8 +70,8 @@ function hold() {
   for (const [signal, listener] of listeners) process.on(signal, listener);
   return {
     async release() {
-      // What came meanwhile is told once the event loop turns.
-      await new Promise((done) => setImmediate(done));
+      // What came meanwhile is told once the event loop has looked for it; a timer comes after that, an immediate may not.
+      await new Promise((done) => setTimeout(done, 1));
       for (const [signal, listener] of listeners) process.off(signal, listener);
       if (code !== null) process.exit(code);
     },

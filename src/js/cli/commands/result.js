@@ -30,7 +30,7 @@ export function smoothLines(report) {
   const { method, equation, epsilon, choice, before, after, constraintCount, solver } = report;
   const how = epsilon === null ? '' : `, ε = ${shown(epsilon)}${choice ? ` by ${choice.rule}` : ''}`;
   const lines = [
-    `${method}, equation ${equation}${how}`,
+    `${method}, ${sourceOf(equation)}${how}`,
     ...(choice ? [choice.reason] : []),
     '',
     ...countsTable(before, after),
@@ -51,6 +51,12 @@ export function smoothLines(report) {
   if (solver.route !== 'none')
     lines.push(`solved by ${solver.route}, residual ${solver.relativeResidual.toExponential(1)}`);
   return lines;
+}
+
+/** Where the report's equation stands. */
+function sourceOf(equation) {
+  if (equation === 'fem') return 'by finite elements';
+  return `${equation.startsWith('[') ? 'reference' : 'equation'} ${equation}`;
 }
 
 /** Numbers of critical points before and after. */
