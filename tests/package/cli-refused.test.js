@@ -16,7 +16,7 @@ beforeAll(() => {
   mkdirSync(place.at('folder'));
   writeFileSync(place.at('empty.ply'), '');
   writeFileSync(place.at('broken.ply'), readFileSync(place.at('torus.ply')).subarray(0, 5000));
-  writeFileSync(place.at('short.txt'), '1 2 3');
+  writeFileSync(place.at('short.txt'), '1\n2\n3\n');
   writeFileSync(place.at('word.txt'), '1\ntwo\n3\n');
   writeFileSync(place.at('infinite.off'), 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e999 0\n3 0 1 2\n');
   writeFileSync(place.at('triangle.off'), 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n');
@@ -112,11 +112,11 @@ describe('data that are at fault', () => {
     ['info folder', 'it is a folder'],
     ['info empty.ply', 'empty.ply', 'EmptyFile'],
     ['info broken.ply', 'broken.ply', '('],
-    ['info noisy.txt', 'UnknownFormat', '--format', 'obj, off', '--values'],
+    ['info noisy.txt', 'UnknownFormat', 'obj, off', '--values'],
     ['info infinite.off', 'infinite.off', '('],
     ['critical torus.ply --values short.txt', 'short.txt', 'LengthMismatch, expected 4301, actual 3'],
     ['critical triangle.off --values word.txt', 'word.txt', 'InvalidNumber, line 2'],
-    ['critical triangle.off --values nan.txt', 'NonFiniteValue, vertex 1', '--missing omit'],
+    ['critical triangle.off --values nan.txt', 'NonFiniteValue, vertex 1', '--missing says', '"omit" leaves a hole'],
     ['smooth torus.ply --field noisy --constraints 1,99999', 'IndexOutOfBounds, index 99999, vertices 4301'],
     ['simplify torus.ply --field noisy --keep 0,1', 'NotAnExtremum, vertex'],
     ['prescribe torus.ply --field noisy --epsilon 0.05 --minima 900 --maxima 1', 'TooFewExtrema', '--of input'],

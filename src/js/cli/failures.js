@@ -31,7 +31,6 @@ const MISUSES = [
 
 /** What can be done, where the message does not say it in the words of the command line; `options` are those of the command. */
 const ADVICE = {
-  NonFiniteValue: (options) => 'missing' in options && 'for values that are missing, try --missing omit',
   LengthMismatch: (options) => 'values' in options && 'the values must be for this very mesh, one for each vertex',
   OutOfMemory: (options) => 'precision' in options && 'try --precision single, or --solver cg',
   NotPositiveDefinite: () => 'try a larger --epsilon, or --weights intrinsic-delaunay',

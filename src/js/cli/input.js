@@ -39,8 +39,11 @@ function recognised({ formats }, read) {
     return read();
   } catch (error) {
     if (error.code === 'UnknownFormat') {
-      const names = formats().flatMap(({ name, reads }) => (reads ? [name] : []));
-      error.advice = `there are ${names.join(', ')}; values without a mesh go beside one, by --values`;
+      const names = formats()
+        .flatMap(({ name, reads }) => (reads ? [name] : []))
+        .join(', ');
+      const list = error.message.includes(names) ? '' : `there are ${names}; `;
+      error.advice = `${list}values without a mesh go beside one, by --values`;
     }
     throw error;
   }
