@@ -48,7 +48,7 @@ const TABLE = {
 /**
  * Entries without a WebAssembly module of their own: `bundles`, `types` and `exports` as above. `standalone`: scripts that need no
  * other file; `embedded`: those that are also there as texts in scripts, by their names. `external`: packages that they import by name,
- * this one included; others than that are optional peer dependencies.
+ * this one included; others than that are optional peer dependencies. `bin`: commands, by the files that they run.
  */
 export const others = {
   worker: {
@@ -72,6 +72,14 @@ export const others = {
     external: ['morse-smooth', 'three'],
     types: { three: ['three'] },
     exports: { './three': exported('three', 'three', false) },
+  },
+  cli: {
+    bundles: { 'cli.mjs': 'cli.js' },
+    external: ['morse-smooth'],
+    types: {},
+    exports: {},
+    // Without `./`, which npm would take away with a warning.
+    bin: { 'morse-smooth': 'dist/cli.mjs' },
   },
 };
 
@@ -128,11 +136,13 @@ export const modules = Object.fromEntries(
  */
 export function manifest() {
   const exports = Object.assign({}, ...[...Object.values(modules), ...Object.values(others)].map((row) => row.exports));
+  const bin = Object.assign({}, ...Object.values(others).map((row) => row.bin));
   const { '.': main, ...subpaths } = exports;
   const classic = Object.keys(modules.core.bundles).find((name) => name.endsWith('.iife.js'));
   const by = (value) => Object.fromEntries(Object.entries(subpaths).map(([path, entry]) => [path, value(entry)]));
   const withoutDot = (record) => Object.fromEntries(Object.entries(record).map(([path, to]) => [path.slice(2), to]));
   return {
+    bin,
     main: main.require.default,
     module: main.default,
     unpkg: `./dist/${classic}`,

@@ -66,6 +66,7 @@ describe('the package', () => {
       'LICENSE-APACHE',
       'LICENSE-MIT',
       'README.md',
+      'dist/cli.mjs',
       'dist/core-embedded.cjs',
       'dist/core-embedded.js',
       'dist/core.js',
@@ -126,7 +127,7 @@ describe('the package', () => {
   });
 
   it('has every file that package.json names', () => {
-    const names = JSON.stringify(manifest()).match(/\.\/dist\/[^"]*/g);
+    const names = JSON.stringify(manifest()).match(/(\.\/)?dist\/[^"]*/g);
     for (const name of names.filter((name) => !name.includes('*')))
       expect(existsSync(join(dist, '..', name)), name).toBe(true);
   });
