@@ -17,7 +17,7 @@ use crate::smooth::method::{self, Masked, Method};
 use crate::smooth::methods::settings;
 use crate::smooth::operators::Operators;
 use crate::smooth::report::About;
-use crate::smooth::routes::{Accuracy, Solutions, SolverSettings};
+use crate::smooth::routes::{Accuracy, LARGE, Solutions, SolverSettings};
 use crate::smooth::schedule::{Forecast, Schedule};
 use crate::smooth::system::{Matrices, RegularizedSystem};
 use crate::smooth::systems::Systems;
@@ -97,8 +97,10 @@ fn start(
     let usual = most.min(USUAL_SHIFTS);
     // Per channel: its values, thrice; the basis with its images, and what a shift adds. For all: probes and solutions.
     let vectors = 2 * (1 + DERIVATIVES + 2) + 8;
-    // What later shifts add is kept for them, so that the first factor shows whether there is room for both.
-    let later = memory::hold(8 * n * (2 * (1 + DERIVATIVES) * usual.saturating_sub(1) * count) as u64)?;
+    // What later shifts add, and what they take meanwhile, is kept for them in one piece: so the first factor shows whether there is room for
+    // both, and what they leave is not cut up.
+    let added = 2 * (1 + DERIVATIVES) * usual.saturating_sub(1) * count;
+    let later = memory::hold(8 * n * (added + meanwhile(count)) as u64)?;
     memory::ensure(8 * n * ((vectors * count + 4 * TOGETHER + PROBES) as u64))?;
     let steps = vec![(Phase::Factorization, 1.0); usual];
     let mut plan = watch.plan(&steps);
@@ -159,10 +161,7 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     let epsilon = growth.worst.0;
     let (n, count) = (matrices.unknowns().len() as u64, spaces.len());
     let dimension = spaces.iter().map(Space::dimension).max().unwrap_or(0) as u64 + 3;
-    // Solutions; what is solved for together, or else their images and what makes them orthogonal; and the small matrices.
-    let added = 1 + DERIVATIVES;
-    let vectors = added * count + (added * (count + 4)).max(8 * count.min(TOGETHER) + 3 * TOGETHER);
-    memory::ensure(8 * n * vectors as u64 + 8 * dimension * dimension * (12 * count as u64 + 12))?;
+    memory::ensure(8 * n * meanwhile(count) as u64 + 8 * dimension * dimension * (12 * count as u64 + 12))?;
     let full = SolverSettings { solutions: Solutions::Many, ..settings(field.operators.options, false) };
     let rough = SolverSettings { accuracy: Accuracy::Rough, ..full };
     let (work, analysis, factorization) = system.forecast(epsilon, full);
@@ -172,6 +171,8 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
     });
     let steps = steps(&first, &next, spaces.len().div_ceil(TOGETHER));
     let mut plan = watch.plan(&steps);
+    // The less memory is left, the fewer are solved for at once: beside a large factor the others take no time to speak of.
+    let together = if n < LARGE as u64 { TOGETHER } else { 1 };
     // Whatever fails leaves the family as it was.
     let mut added: Vec<Vec<Vec<f64>>> = Vec::with_capacity(spaces.len());
     let mut traces: Vec<f64> = Vec::new();
@@ -190,7 +191,7 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
         let mut of_spaces: Vec<Vec<Vec<f64>>> = solutions.into_iter().map(|x| vec![x]).collect();
         for _ in 0..DERIVATIVES {
             let first = traces.len();
-            let probes = &growth.probes[first..PROBES.min(first + TOGETHER.saturating_sub(rest.len()).max(1))];
+            let probes = &growth.probes[first..PROBES.min(first + together.saturating_sub(rest.len()).max(1))];
             let right_hand_sides: Vec<Vec<f64>> = rest.iter().chain(probes).cloned().collect();
             plan.begin(0)?;
             let solved = system.solve_fields(right_hand_sides, epsilon, rough, &mut next.stages(watch))?.solutions;
@@ -228,6 +229,13 @@ fn add_shift(family: &mut Family, system: &mut RegularizedSystem, watch: &Watch<
         spaces.iter_mut().for_each(Space::finish);
     }
     Ok(())
+}
+
+/// The vectors that a shift takes while it is added: solutions; what is solved for together, or else their images and what makes them
+/// orthogonal.
+fn meanwhile(count: usize) -> usize {
+    let added = 1 + DERIVATIVES;
+    added * count + (added * (count + 4)).max(8 * count.min(TOGETHER) + 3 * TOGETHER)
 }
 
 /// The steps of a shift for so many groups of channels: a solution and its derivatives for each, and what makes them orthogonal.

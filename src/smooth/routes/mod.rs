@@ -33,7 +33,7 @@ pub(super) use task::{Accuracy, Answer, FactorKey, Solutions, SolverSettings, Ta
 
 /// From about this many unknowns on, conjugate gradients with the complex factor should beat the factor of LᵀL for a solution or two:
 /// the cost of that factor grows faster. Estimated from the times of both at 100,000 and 1,000,000 vertices (benches/README.md).
-const LARGE: usize = 400_000;
+pub(super) const LARGE: usize = 400_000;
 
 /// A factor that takes so many times as long as iterations for the right-hand sides at hand is not computed: the estimates of both are
 /// rough, and the factor serves the next call, too.
