@@ -2,7 +2,7 @@
 import { element } from './dom';
 
 export function isFieldName(name: string): boolean {
-  return /\.(txt|csv|tsv|dat|npy|curv|sulc|thickness)(\.gz)?$/i.test(name);
+  return /\.(txt|csv|tsv|dat|xyz|npy|curv|sulc|thickness|area)(\.gz)?$/i.test(name);
 }
 
 export function acceptDrops(use: (files: File[]) => void): void {
