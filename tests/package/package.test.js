@@ -3,6 +3,7 @@ import { cpSync, existsSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, inject, it } from 'vitest';
+import { formats } from 'morse-smooth/files';
 import { manifest, modules, others } from '../../scripts/lib/modules.mjs';
 import { npm } from '../../scripts/lib/run.mjs';
 import { namesOf } from './apps/names.js';
@@ -44,7 +45,7 @@ const read = {
   triangles: [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1],
   heat: [5, 1, 2, 3, 4],
   column: [2, 4],
-  formats: 6,
+  formats: formats().length,
   code: 'UnknownColumn',
 };
 
@@ -54,7 +55,7 @@ const away = {
   euler: 1,
   stopped: 'AbortError',
   code: 'IndexOutOfBounds',
-  formats: 6,
+  formats: formats().length,
   png: true,
   closed: 'ConnectionClosed',
 };
