@@ -1,7 +1,7 @@
 """Makes the files of tests/golden/files with other programs, and what these programs say of them.
 
-    python3 -m venv /tmp/peers && /tmp/peers/bin/pip install vtk meshio nibabel gmsh trimesh numpy
-    /tmp/peers/bin/python scripts/make-file-fixtures.py && npx prettier --write tests/golden/files/expected.json
+    python3 -m venv target/peers && target/peers/bin/pip install vtk meshio nibabel gmsh trimesh numpy
+    target/peers/bin/python scripts/make-file-fixtures.py && npx prettier --write tests/golden/files/expected.json
 
 Every file has its row in expected.json beside it: counts, bounds, and the sum of every field, all as the program reads them back (or,
 where it only writes, as they were given to it). The tests compare with these. Run it again only to add files: the bytes of some

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use morse_smooth::io::{MeshData, ReadOptions, WriteOptions, read_mesh, read_table, write_mesh};
 use serde_json::Value;
 
+use crate::io_data::area;
+
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/files")
 }
@@ -33,17 +35,6 @@ fn tolerance(name: &str) -> f64 {
 #[track_caller]
 fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * (1.0 + expected.abs()), "{what}: {found} instead of {expected}");
-}
-
-fn area(data: &MeshData) -> f64 {
-    let point = |corner: u32| [0, 1, 2].map(|axis| data.positions[3 * corner as usize + axis]);
-    let doubled = data.triangles.chunks_exact(3).map(|corners| {
-        let [a, b, c] = [point(corners[0]), point(corners[1]), point(corners[2])];
-        let (u, v) = ([0, 1, 2].map(|axis| b[axis] - a[axis]), [0, 1, 2].map(|axis| c[axis] - a[axis]));
-        let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        cross.iter().map(|part| part * part).sum::<f64>().sqrt()
-    });
-    doubled.sum::<f64>() / 2.0
 }
 
 /// Twice the signed volume under a closed surface, which is negative where its triangles look inwards.

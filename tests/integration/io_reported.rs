@@ -7,6 +7,8 @@ use morse_smooth::io::{
 };
 use morse_smooth::load::{LoadOptions, TriangleFields, load_arrays};
 
+use crate::io_data::area;
+
 fn mesh(text: impl AsRef<[u8]>) -> MeshData {
     read_mesh(text.as_ref(), &ReadOptions::default()).expect("a valid file")
 }
@@ -23,17 +25,6 @@ fn field(text: impl AsRef<[u8]>, column: Option<&str>) -> Result<Vec<f64>, Parse
 /// Values with `None` where they are missing, so that they can be compared.
 fn present(values: &[f64]) -> Vec<Option<f64>> {
     values.iter().map(|&value| (!value.is_nan()).then_some(value)).collect()
-}
-
-fn area(data: &MeshData) -> f64 {
-    let point = |corner: u32| [0, 1, 2].map(|axis| data.positions[3 * corner as usize + axis]);
-    let doubled = data.triangles.chunks_exact(3).map(|corners| {
-        let [a, b, c] = [point(corners[0]), point(corners[1]), point(corners[2])];
-        let (u, v) = ([0, 1, 2].map(|axis| b[axis] - a[axis]), [0, 1, 2].map(|axis| c[axis] - a[axis]));
-        let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        cross.iter().map(|part| part * part).sum::<f64>().sqrt()
-    });
-    doubled.sum::<f64>() / 2.0
 }
 
 // ------------------------------------------------------------------ numbers

@@ -30,6 +30,7 @@ mod hierarchy;
 mod intrinsic;
 mod intrinsic_properties;
 mod io_damaged;
+mod io_data;
 mod io_malformed;
 mod io_peers;
 mod io_read;
